@@ -142,7 +142,7 @@ void Session::check_robot(ClientId client, NodeId robot) const {
     client_of(client);
     if (driver(robot) == client) return;
     throw std::invalid_argument(fmt::format(
-        "robot {} is not attached to this client: attach it first", network_->name(robot)));
+        "robot {} is not attached to this client: attach the robot first", network_->name(robot)));
 }
 
 std::optional<std::uint64_t> Session::carry_out(ClientId client, NodeId robot,

@@ -222,7 +222,9 @@ std::optional<std::string_view> TextLines::next() {
         last_ = text.size() + 1;
     }
     if (text.size() > longest) {
-        throw InputError(where_, fmt::format("a line is longer than {} bytes", longest));
+        throw InputError(where_, fmt::format("a line is longer than {} bytes, which is the limit; "
+                                             "check that this is the right file",
+                                             longest));
     }
     if (text.ends_with('\r')) text.remove_suffix(1);
     return text;

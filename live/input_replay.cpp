@@ -106,7 +106,10 @@ Input first_input(std::tuple<std::type_identity<Commands>...> /*commands*/, cons
         first += size;
     };
     (read(std::type_identity<Commands>{}), ...);
-    if (!is_known) found[4]->fail("bad_value", "expected velocity, goal, stop, place or send");
+    if (!is_known) {
+        found[4]->fail("bad_value",
+                       "expected \"velocity\", \"goal\", \"stop\", \"place\" or \"send\"");
+    }
     return input;
 }
 

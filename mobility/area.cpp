@@ -46,24 +46,26 @@ Area::Area(const std::vector<Vec3>& corners, const Scene& scene, std::string_vie
         if (scene.open_field())
             refuse(model,
                    "the key \"area\" must be given, because the scene is an open field without a "
-                   "map: area = [[x, y], [x, y]]");
+                   "map; write area = [[x, y], [x, y]]");
         return;
     }
     if (corners.size() != 2) {
-        refuse(model,
-               fmt::format("area must be two corners, lower-left and upper-right, got {} points",
-                           corners.size()));
+        refuse(model, fmt::format(
+                          "\"area\" must be two corners, lower-left and upper-right, got {} points",
+                          corners.size()));
     }
     const Vec3 a = corners[0], b = corners[1];
     const bool finite = any.contains(b.x - a.x) && any.contains(b.y - a.y);
     if (!finite || !(b.x > a.x) || !(b.y > a.y)) {
         refuse(model,
-               "area's second corner must lie right of and above its first, got " + text(a, b));
+               "the second corner of the area must lie to the right of the first corner and above "
+               "it, got " +
+                   text(a, b));
     }
     const bool map = scene.has_border();
     if (map && !(std::max(a.x, lower.x) < std::min(b.x, upper.x) &&
                  std::max(a.y, lower.y) < std::min(b.y, upper.y))) {
-        refuse(model, fmt::format("area {} does not overlap the map, which goes from {}",
+        refuse(model, fmt::format("the area from {} does not overlap the map, which goes from {}",
                                   text(a, b), text(lower, upper)));
     }
     lower = map ? Vec3{std::max(a.x, lower.x), std::max(a.y, lower.y)} : a;
@@ -109,7 +111,7 @@ std::optional<Vec3> Area::first_place(const Mover& mover, StartPlace start, Draw
     if (start == StartPlace::uniform && mover.now == start_of_run) return free_place(mover, draws);
     const Vec3 p = mover.position;
     if (contains(p)) return p;
-    refuse(model, fmt::format("the robot must begin inside the area {}, but is at ({}, {}) m",
+    refuse(model, fmt::format("the robot must begin inside the area from {}, but is at ({}, {}) m",
                               text(lower, upper), p.x, p.y));
 }
 

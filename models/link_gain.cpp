@@ -69,10 +69,10 @@ void check_antenna(const Radio& radio) {
         }
         const bool ascends = i == 0 || degrees > points[i - 1].degrees;
         if (ascends && degrees < points.front().degrees + 360) continue;
-        throw std::invalid_argument(fmt::format(
-            "antenna_pattern: found {:g} degrees after {:g}; expected angles that ascend, within "
-            "one turn",
-            degrees, points[i - (i > 0 ? 1 : 0)].degrees));
+        throw std::invalid_argument(
+            fmt::format("antenna_pattern: found {:g} degrees after {:g}; expected angles in "
+                        "ascending order, all within one turn of 360 degrees",
+                        degrees, points[i - (i > 0 ? 1 : 0)].degrees));
     }
 }
 

@@ -35,7 +35,8 @@ void Engine::reserve(std::size_t robots) {
 NodeId Engine::add(Robot robot) {
     if (robot.name.empty()) robot.name = fmt::format("r{}", world.size());
     if (names.find(robot.name)) {
-        throw std::invalid_argument(fmt::format("two robots are named \"{}\"", robot.name));
+        throw std::invalid_argument(fmt::format(
+            "two robots are named \"{}\"; give each robot a different name", robot.name));
     }
     Motion::check(robot);
     channel.check(robot.radio.rate);

@@ -32,7 +32,9 @@ void NameTable::reserve(std::size_t names) {
 void NameTable::add(std::string_view name) {
     assert(!find(name));
     if (name.size() > std::numeric_limits<std::uint32_t>::max() - characters_.size()) {
-        throw std::length_error("the names of all robots together are longer than 4 GB");
+        throw std::length_error(
+            "the names of all robots together are longer than 4 GB; expected shorter names or "
+            "fewer robots");
     }
     const std::size_t names = size() + 1;
     if (names + names / 4 + 1 > index_.size()) lay_index(names);

@@ -174,7 +174,8 @@ Planners& Network::planners() { return *engine_->world.planners; }
 MetricValues Network::metrics() const {
     if (!engine_->metrics)
         throw std::invalid_argument(
-            "this network computes no metrics; expected metrics = true in its settings");
+            "this network computes no metrics; expected metrics = true in the settings of the "
+            "network");
     return engine_->metrics->values();
 }
 Duration Network::airtime() const { return engine_->mac.airtime_so_far(); }

@@ -93,9 +93,13 @@ void Routing::check_role(NodeId node) const {
     const auto known = router_ ? router_->traits().roles : std::span<const std::string_view>{};
     if (std::find(known.begin(), known.end(), mine) != known.end()) return;
     throw std::invalid_argument(
-        known.empty() ? fmt::format("role \"{}\": the routing protocol has no roles", mine)
-                      : fmt::format("role \"{}\": the roles of the routing protocol are \"{}\"",
-                                    mine, fmt::join(known, "\", \"")));
+        known.empty()
+            ? fmt::format(
+                  "role \"{}\": the routing protocol has no roles; expected a robot without a role",
+                  mine)
+            : fmt::format(
+                  "role \"{}\": the routing protocol has no such role; expected one of \"{}\"",
+                  mine, fmt::join(known, "\", \"")));
 }
 
 /// Starts the nodes in the order of their keys, so that their ids have no effect.
@@ -170,7 +174,8 @@ std::optional<SendHandle> Routing::send(const Frame& frame, std::optional<NodeId
         throw std::invalid_argument(
             receiving_ ? "the routing protocol may not send a frame while it handles a reception: "
                          "send the frame 1 us later"
-                       : "the routing protocol sent a frame at a time in the past");
+                       : "the routing protocol sent a frame at a time in the past; expected the "
+                         "present time or a later time");
     }
     world_.hold(frame);
     world_.messages.note_sending(frame);
@@ -255,7 +260,9 @@ Dbm Routing::level(const Reception& reception) const {
 
 void Routing::timer(NodeId node, Time at, std::uint64_t tag) {
     if (at < world_.now)
-        throw std::invalid_argument("the routing protocol set a timer to a time in the past");
+        throw std::invalid_argument(
+            "the routing protocol set a timer to a time in the past; expected the present time or "
+            "a later time");
     world_.events.schedule(at, Priority::timer, {Occurrence::Kind::router_timer, node, tag});
 }
 
@@ -314,7 +321,7 @@ void Routing::count_holds([[maybe_unused]] MessageId id, [[maybe_unused]] int ch
     held_[id.index()] += change;
     if (held_[id.index()] >= 0) return;
     throw std::logic_error(
-        fmt::format("the routing protocol released {}, to which it holds no reference",
+        fmt::format("the routing protocol released {}, to which this protocol holds no reference",
                     name_of(world_.messages[id])));
 #endif
 }
@@ -324,8 +331,8 @@ void Routing::check_held() const {
     for (MessageId id{0}; id.index() < held_.size(); ++id.value) {
         if (held_[id.index()] == 0 || router_->keeps(id)) continue;
         throw std::logic_error(
-            fmt::format("the routing protocol still holds {} reference(s) to {}, but its keeps() "
-                        "returns false for this message",
+            fmt::format("the routing protocol still holds {} reference(s) to {}, but keeps() of "
+                        "this protocol returns false for this message",
                         held_[id.index()], name_of(world_.messages[id])));
     }
 #endif

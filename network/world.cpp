@@ -66,7 +66,8 @@ void World::change_scene() {
 void World::schedule(Time time, Callback<> call, Duration period) {
     if (time < now) {
         throw std::invalid_argument(
-            fmt::format("an action was scheduled at {} s, but the time is already {} s",
+            fmt::format("an action was scheduled for {} s, but the simulated time is already {} s; "
+                        "expected the present time or a later time",
                         seconds(time), seconds(now)));
     }
     const std::size_t slot = actions_.take();

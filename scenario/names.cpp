@@ -44,7 +44,8 @@ class Names {
         for (const RobotTable& robot : scenario_.robots) {
             if (robot.count && robot.name == name) {
                 return fmt::format(
-                    "the [[robot]] of this name has a count, so its robots are named {}0 to {}{}",
+                    "the [[robot]] of this name has the key \"count\", so its robots are named {}0 "
+                    "to {}{}",
                     name, name, *robot.count - 1);
             }
         }

@@ -148,9 +148,10 @@ void check_csma(const Csma& csma, const Table& table) {
         const Value& slot = *table.find("slot");
         throw InputError(
             slot.where,
-            fmt::format("slot: found {}; [access] model = \"csma\" waits up to {} slots in a "
-                        "backoff; expected a slot > 0, and a longest backoff of at most 1e9 s",
-                        slot.description(), timing.cw_max));
+            fmt::format(
+                "slot: found {}; [access] model = \"csma\" waits up to {} slots in a backoff; "
+                "expected a slot > 0 s, and so short that no backoff is longer than 1e9 s",
+                slot.description(), timing.cw_max));
     }
     check_windows(csma, table);
     const auto& given_rates = csma.basic_rates;
@@ -158,8 +159,8 @@ void check_csma(const Csma& csma, const Table& table) {
     if (given_rates &&
         (given_rates->empty() || std::any_of(given_rates->begin(), given_rates->end(), is_none))) {
         const Value& given = *table.find("basic_rates");
-        throw InputError(given.where, fmt::format("basic_rates: found {}; expected at least one "
-                                                  "bit rate, all of them > 0",
+        throw InputError(given.where, fmt::format("basic_rates: found {}; expected a list of at "
+                                                  "least one bit rate, and only bit rates > 0",
                                                   given.description()));
     }
 }
@@ -184,10 +185,10 @@ void check_shadowing(TableReader& document, const Scenario& scenario) {
         if (!model.is_random()) return;
         throw InputError(
             where,
-            fmt::format(
-                "[shadowing]: propagation model \"{}\" already contains shadowing; expected only "
-                "one of the two: [propagation] sigma = \"0 dB\", or [shadowing] model = \"none\"",
-                model.name()));
+            fmt::format("[shadowing]: propagation model \"{}\" already contains shadowing, so "
+                        "losses would have shadowing twice; switch one of the two off: set "
+                        "[propagation] sigma = \"0 dB\", or [shadowing] model = \"none\"",
+                        model.name()));
     };
     const auto has_own = [](const RobotTable& robot) { return robot.propagation.has_value(); };
     const auto& robots = scenario.robots;

@@ -204,11 +204,9 @@ ScenarioFile::ScenarioFile(const std::string& path, const ScenarioOptions& optio
 ScenarioFile::ScenarioFile(Value document, const std::string& path, const ScenarioOptions& options)
     : path_(path), document_(std::move(document)), needs_robots_(options.needs_robots) {
     if (!document_.table()) {
-        throw InputError(
-            document_.where,
-            fmt::format(
-                "found {}; expected a table with the tables of a scenario, such as [[robot]]",
-                document_.description()));
+        throw InputError(document_.where, fmt::format("found {}; expected a table that contains "
+                                                      "the tables of a scenario, such as [[robot]]",
+                                                      document_.description()));
     }
     Table& table = *document_.table();
     const fs::path folder = fs::path(path).parent_path();

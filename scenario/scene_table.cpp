@@ -16,7 +16,7 @@ void check_greys(const MaterialTable& material, TableReader& table) {
     if (levels.size() == 2 && levels[0] >= 0 && levels[0] <= levels[1] && levels[1] <= 255) return;
     throw InputError(
         table.take("greys")->where,
-        "greys: expected two levels from 0 to 255, the lower first, such as [90, 110]");
+        "greys: expected two grey levels from 0 to 255, the lower level first, such as [90, 110]");
 }
 
 MaterialTable read_material(const Entry& entry) {

@@ -55,9 +55,10 @@ void note_rate(Scenario& out, std::string_view key, BitRate rate, const Location
     if (!csma) return;
     const auto rates = rates_of(csma->standard);
     if (std::find(rates.begin(), rates.end(), rate) != rates.end()) return;
-    add_notice(out.notices,
-               fmt::format("{}: {}: {} has no rate of {}; its rates are {} Mb/s", where.text(), key,
-                           name_of(csma->standard), shown(rate), megabits_text(rates)));
+    add_notice(
+        out.notices,
+        fmt::format("{}: {}: standard {} has no rate of {}; the rates of this standard are {} Mb/s",
+                    where.text(), key, name_of(csma->standard), shown(rate), megabits_text(rates)));
 }
 
 /// Notices switching that changes nothing: a robot starts switched on.
@@ -185,8 +186,8 @@ void note_broadcasts(Scenario& out) {
         broadcasts.add([&] {
             return fmt::format(
                 "{}: hops: with hops = 1 the routing protocol does not forward these broadcasts, "
-                "so only neighbours of \"{}\" hear these broadcasts; without the key hops, the "
-                "protocol forwards them",
+                "so only neighbours of \"{}\" hear these broadcasts; without the key \"hops\", the "
+                "protocol forwards these broadcasts",
                 traffic.hops_where.text(), traffic.from);
         });
     }

@@ -57,9 +57,11 @@ class MapFile {
         map.image = picture();
         map.resolution = number(need_node("resolution"), "resolution", "metres per pixel");
         if (!(map.resolution > 0))
-            fail_at("resolution",
-                    fmt::format("resolution is {}; expected metres per pixel > 0; such as 0.05",
-                                map.resolution));
+            fail_at(
+                "resolution",
+                fmt::format(
+                    "\"resolution\" is {}; expected a number of metres per pixel > 0; such as 0.05",
+                    map.resolution));
         read_origin(map.origin);
         read_thresholds(map);
         if (root_["negate"]) map.negate = read_negate();
@@ -74,11 +76,11 @@ class MapFile {
         const auto name = need<std::string>("image", "the picture's file name");
         if (name.empty())
             fail_at("image",
-                    "image is empty; expected the picture's file name; such as \"map.png\"");
+                    "\"image\" is empty; expected the picture's file name; such as \"map.png\"");
         const auto folder = std::filesystem::path(path_).parent_path();
         const std::string beside = named_beside(folder.string(), name);
         if (!beside.empty())
-            fail_at("image", fmt::format("image is \"{}\"; there is no such file, but there is "
+            fail_at("image", fmt::format("\"image\" is \"{}\"; there is no such file, but there is "
                                          "\"{}\" in the same folder; write image: {}",
                                          name, beside, beside));
         return (folder / name).string();
@@ -110,7 +112,7 @@ class MapFile {
         std::ifstream file(path_, std::ios::binary);
         if (!file)
             fail(YAML::Mark::null_mark(),
-                 "cannot be opened; expected a readable file; check its permissions");
+                 "cannot be opened; expected a readable file; check the permissions of the file");
         return {std::istreambuf_iterator<char>(file), {}};
     }
 
@@ -166,7 +168,8 @@ class MapFile {
         const YAML::Node node = root_[key];
         if (node) return node;
         fail(YAML::Mark::null_mark(),
-             fmt::format("no key \"{0}\"; expected image, resolution and origin; add \"{0}: ...\"",
+             fmt::format("the key \"{0}\" is missing; expected the keys image, resolution and "
+                         "origin; add a line \"{0}: ...\"",
                          key));
     }
 
@@ -175,8 +178,8 @@ class MapFile {
         const YAML::Node node = need_node(key);
         T value{};
         if (!node.IsScalar() || !YAML::convert<T>::decode(node, value))
-            fail(node.Mark(),
-                 fmt::format("{} is {}; expected {}; check the value", key, described(node), what));
+            fail(node.Mark(), fmt::format("\"{}\" is {}; expected {}; check the value", key,
+                                          described(node), what));
         return value;
     }
 
@@ -190,8 +193,8 @@ class MapFile {
         if (!node.IsScalar() || !YAML::convert<double>::decode(node, value) ||
             !std::isfinite(value))
             fail(node.Mark(),
-                 fmt::format("{} is {}; expected a number, {}; write a number such as 0.05", key,
-                             described(node), what));
+                 fmt::format("\"{}\" is {}; expected a number, {}; write a number such as 0.05",
+                             key, described(node), what));
         return value;
     }
 
@@ -199,8 +202,8 @@ class MapFile {
         const YAML::Node node = need_node("origin");
         if (!node.IsSequence() || node.size() != origin.size())
             fail(node.Mark(),
-                 fmt::format("origin is {}; expected exactly three numbers [x, y, yaw] in metres "
-                             "and radians; such as [0, 0, 0]",
+                 fmt::format("\"origin\" is {}; expected exactly three numbers [x, y, yaw] in "
+                             "metres and radians; such as [0, 0, 0]",
                              node.IsSequence() ? fmt::format("a list of {}", node.size())
                                                : described(node)));
         for (std::size_t i = 0; i < origin.size(); ++i)
@@ -213,15 +216,17 @@ class MapFile {
             if (!root_[key]) continue;
             *value = number(root_[key], key, "from 0 to 1");
             if (*value < 0 || *value > 1)
-                fail_at(key, fmt::format("{} is {}; expected a number from 0 to 1; such as 0.65",
-                                         key, *value));
+                fail_at(key,
+                        fmt::format("\"{}\" is {}; expected a number from 0 to 1; such as 0.65",
+                                    key, *value));
         }
         const YAML::Node occupied = root_["occupied_thresh"], free = root_["free_thresh"];
         if (map.occupied_thresh > map.free_thresh || !(occupied || free)) return;
         if (occupied && free)
-            fail(occupied.Mark(), fmt::format("occupied_thresh is {} and free_thresh is {}; "
-                                              "expected occupied_thresh > free_thresh; swap them?",
-                                              map.occupied_thresh, map.free_thresh));
+            fail(occupied.Mark(),
+                 fmt::format("\"occupied_thresh\" is {} and \"free_thresh\" is {}; expected "
+                             "occupied_thresh > free_thresh; did you swap the two values?",
+                             map.occupied_thresh, map.free_thresh));
         if (occupied)
             give_way("free_thresh", map.free_thresh, "occupied_thresh", map.occupied_thresh);
         else
@@ -230,8 +235,8 @@ class MapFile {
 
     /// Adapts the default of a missing threshold to the one in the file.
     void give_way(const char* missing, double& usual, const char* key, double given) const {
-        note(root_[key].Mark(), fmt::format("the key {} is missing, and its default {} contradicts "
-                                            "{} = {}, so both keys get the value {}",
+        note(root_[key].Mark(), fmt::format("the key \"{}\" is missing, and its default value {} "
+                                            "contradicts {} = {}, so both keys get the value {}",
                                             missing, usual, key, given, given));
         usual = given;
     }
@@ -249,7 +254,7 @@ class MapFile {
         for (std::size_t i = 0; i < names.size(); ++i)
             if (name == names[i]) return static_cast<Mode>(i);
         const std::string near = did_you_mean(name, names);
-        fail_at("mode", fmt::format("mode is \"{}\"; expected trinary, scale or raw; {}", name,
+        fail_at("mode", fmt::format("\"mode\" is \"{}\"; expected trinary, scale or raw; {}", name,
                                     near.empty() ? "leave the key out for trinary" : near));
     }
 

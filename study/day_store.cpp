@@ -39,8 +39,8 @@ void check_property(const Store& store, const char* key, const std::string& expe
     if (found == expected || (found.empty() && store.points().empty())) return;
     throw InputError(
         {store.path()},
-        fmt::format("the rows in this store were made by {} \"{}\", but the new rows "
-                    "by \"{}\"; expected a different --store",
+        fmt::format("the rows in this store were made by {} \"{}\", but the new rows are made by "
+                    "\"{}\"; expected a different --store",
                     std::string_view(key) == "replay" ? "the command" : key, found, expected));
 }
 

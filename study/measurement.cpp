@@ -152,9 +152,10 @@ void check_metric(const std::string& name, const Scenario& scenario, const Locat
     if (has(names, name)) return;
     const auto quotient = quotient_of(name);
     if (quotient && has(names, quotient->over) && has(names, quotient->under)) {
-        throw InputError(where, fmt::format("\"{}\" is a quotient of two metrics, which only the "
-                                            "commands results and plot compute; expected {} and {}",
-                                            name, quotient->over, quotient->under));
+        throw InputError(
+            where, fmt::format("\"{}\" is a quotient of two metrics, which only `rovernet results` "
+                               "and `rovernet plot` compute; expected the two metrics {} and {}",
+                               name, quotient->over, quotient->under));
     }
     throw InputError(
         where, fmt::format("there is no metric \"{}\"{}; rovernet help output explains the metrics "

@@ -50,7 +50,7 @@ void merge(Store& store, const std::string& path) {
         if (!ours.contains(point.id))
             throw InputError({path},
                              "this store belongs to a different study; expected a store that sweep "
-                             "--shard made of the same study");
+                             "--shard made for the same study");
     }
     copy_runs(shard, store);
 }

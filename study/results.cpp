@@ -24,7 +24,7 @@ void check_known(const std::string& word, const std::vector<std::string>& known,
     if (std::find(known.begin(), known.end(), word) != known.end()) return;
     const std::string near = did_you_mean(word, known);
     throw std::invalid_argument(
-        fmt::format("{} \"{}\" is not in this study; expected one of {}{}{}", what, word,
+        fmt::format("{} \"{}\" does not vary in this study; expected one of {}{}{}", what, word,
                     fmt::join(known, ", "), near.empty() ? "" : "; ", near));
 }
 
@@ -194,10 +194,11 @@ std::string coverage_text(const Answers& answers) {
     for (const Answer& answer : answers.list) {
         if (&answer != &answers.list.front() && answer.metric == answers.list.front().metric) break;
         if (answer.left_out == 0) continue;
-        texts.push_back(
-            fmt::format("the mean of {} leaves out {} of {} cells (a cell is one replication at "
-                        "one value of each of these keys), because some rows have no value there",
-                        answer.metric, answer.left_out, answer.cells));
+        texts.push_back(fmt::format(
+            "the mean of {} leaves out {} of {} cells, because some rows have no value in "
+            "these cells (a cell is one replication at one value of each key that is "
+            "averaged over)",
+            answer.metric, answer.left_out, answer.cells));
     }
     for (const auto& [metric, count] : undefined) {
         if (count > 0)

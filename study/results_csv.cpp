@@ -58,7 +58,7 @@ void write_csv(const Store& store, const Question& question, const Write& write)
         if (!quotient_of(metric) || !store.values(metric).empty()) continue;
         throw std::invalid_argument(
             fmt::format("--csv: {} is a quotient of two metrics and has no value for a single run; "
-                        "expected also --group-by",
+                        "expected --csv together with --group-by",
                         metric));
     }
     const PointCells points(store, question.where);

@@ -394,7 +394,8 @@ void Store::query(const std::string& sql,
         }
     } catch (const SQLite::Exception& error) {
         throw std::invalid_argument(fmt::format(
-            "--sql: {}; the tables are study, point, run, metric_name, metric and the view result",
+            "--sql: {}; the tables are study, point, run, metric_name and metric; there is also a "
+            "view named \"result\"",
             guard.denied() ? "only reading is allowed; expected SELECT ..." : error.what()));
     }
 }

@@ -8,8 +8,8 @@ namespace {
 constexpr const char* only_points =
     "use only the runs with this value of a varied key, such as ttl=6";
 constexpr const char* only_cells =
-    "if some rows lack runs: average all rows over the same combinations of values and "
-    "replications, those that every row has";
+    "if some rows lack runs: compute every row only from those combinations of values and "
+    "replications that no row lacks";
 
 void add_results(Command app) {
     const auto [results, a] =

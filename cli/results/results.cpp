@@ -117,8 +117,8 @@ void warn_of_few(const std::vector<Answer>& list) {
     });
     if (few == 0) return;
     notice(
-        fmt::format("warning: {} of {} values are computed from fewer than {} replications; their "
-                    "intervals are unreliable",
+        fmt::format("warning: {} of {} values are computed from fewer than {} replications; the "
+                    "intervals of these values are unreliable; make more replications",
                     few, list.size(), few_replications));
 }
 
@@ -128,7 +128,7 @@ void warn_of_skewness(const std::vector<Answer>& list) {
     notice(fmt::format(
         "warning: {} of {} intervals were computed by Student's t from values that are too skewed "
         "for this method (the number of values is at most 25 times their squared skewness); these "
-        "intervals may cover the true mean less often than stated",
+        "intervals may cover the true mean less often than stated; make more replications",
         skewed, list.size()));
 }
 

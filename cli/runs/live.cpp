@@ -144,11 +144,12 @@ void add_lockstep(Command live, LiveArguments& a) {
     live.add_option("--unix", a.unix_path,
                     "listen for controllers at a Unix socket with this path");
     live.add_option("--patience", a.patience,
-                    "longest real time that a controller may take for a step, and that a started "
-                    "program may take until it sends hello, such as 30s (default: no limit)");
+                    "longest real time, such as 30s, that a controller may take for a step, and "
+                    "that a started program may take until it sends `hello` (default: no limit)");
     live.add_option("--on-loss", a.on_loss,
-                    "what to do when a controller disconnects without `bye`: end the run, stop its "
-                    "robots, or wait for it")
+                    "what to do when a controller disconnects without `bye`: end the run (end), "
+                    "stop the controller's robots (stop), or wait until a controller with the same "
+                    "name connects (wait)")
         .one_of({"end", "stop", "wait"})
         .shows_default();
 }

@@ -11,8 +11,9 @@ void add_run(Command app) {
     const Option view = a.view.add_to(run);
     run.add_option(
            "--listen", a.reach.listen,
-           "serve the page to other machines, too, at this IP address of this machine "
-           "(0.0.0.0: at all its addresses); browsers there need the token in the printed address")
+           "serve the page to other machines, too, at this IP address of this machine (0.0.0.0: at "
+           "all addresses of this machine); browsers on other machines need the token in the "
+           "printed address")
         .needs(view);
 }
 
@@ -87,8 +88,8 @@ void add_sweep(Command app, const std::string& typed) {
             .excludes(shard);
     sweep
         .add_option("--executor", a.executor,
-                    "where runs are made: local, in worker processes (default), or slurm, in a job "
-                    "array of Slurm")
+                    "where runs are made: in worker processes on this machine (local, the "
+                    "default), or in a job array of Slurm (slurm)")
         .one_of({"local", "slurm"})
         .excludes(shard)
         .excludes(merge);
@@ -131,8 +132,8 @@ void add_compare(Command app, const std::string& typed) {
                        "most detailed model, or the first protocol or value)");
     compare
         .add_option("--margin", a.margin,
-                    "test for each model whether the mean of its runs is within this margin of the "
-                    "baseline's mean, in the metric's unit")
+                    "test for each model whether its mean differs from the baseline's mean by less "
+                    "than this margin (in the metric's unit)")
         .check(above_zero());
     compare
         .add_option("--confidence", a.confidence,
@@ -220,13 +221,14 @@ void add_fit(Command app) {
                "CSV file of measured levels to which the models are fitted, with columns from_x_m, "
                "from_y_m, to_x_m, to_y_m, level_dbm; optional: from_z_m, to_z_m, group")
             .excludes(to);
-    fit.add_option(
-           "--check", a.check,
-           "CSV file of levels measured on a different day or drive, to check the fitted models")
+    fit.add_option("--check", a.check,
+                   "CSV file of levels from a different measurement, such as that of another day, "
+                   "to check the "
+                   "fitted models")
         .needs(links);
     fit.add_option("--floor", a.floor,
-                   "level below which nothing was received, for rows with an empty level_dbm, such "
-                   "as \"-94 dBm\"")
+                   "level below which nothing was received, such as \"-94 dBm\"; needed if "
+                   "level_dbm is empty in some rows of the CSV files")
         .needs(links);
     fit.add_flag("--gains", a.gains,
                  "fit a separate gain for each transmitter position, relative to the mean gain")

@@ -28,7 +28,7 @@ void Reach::add_to(Command command) {
     const Option option = command.add_option(
         "--listen", listen,
         "serve WebSocket clients on other machines, too, at this IP address of this machine "
-        "(0.0.0.0: at all its addresses); the clients need the printed token");
+        "(0.0.0.0: at all addresses of this machine); the clients need the printed token");
     command
         .add_flag("--insecure", insecure,
                   "with --listen: other machines can connect by all protocols, also by those "

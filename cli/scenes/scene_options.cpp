@@ -32,7 +32,9 @@ void add_links(Command app) {
     Option history =
         links.add_flag("--history", a.history, "print all link changes of the run, as CSV");
     history.excludes(links.option("--at"));
-    links.add_flag("--places", a.places, "print the positions of both robots at each change")
+    links
+        .add_flag("--places", a.places,
+                  "with --history: print the positions of the two robots at each link change")
         .needs(history);
     links.add_flag("--json", a.json, "print the result as one JSON document");
 }
@@ -75,13 +77,14 @@ void add_where(Command app) {
                                     "print only this robot; without --at: its position at the "
                                     "beginning of each leg of its path");
     Option to = where.add_option("--to", a.to,
-                                 "print where the robot has no link to any of these robots, such "
-                                 "as ap1,ap2: times, places, and the share of the run");
+                                 "print where the robot of --robot has no link to any of these "
+                                 "robots, such as ap1,ap2: times, places, and the share of the "
+                                 "run without a link");
     to.delimiter(',').needs(robot).excludes(at);
     where
         .add_option(
             "--over", a.over,
-            "also count indirect connections over these robots, such as the relays of a mesh")
+            "count connections over these robots (such as the relays of a mesh) as links, too")
         .delimiter(',')
         .needs(to);
     Option csv =
@@ -130,7 +133,7 @@ void add_draw(Command app) {
     margin_to.delimiter(',').needs(trails);
     draw.add_option(
             "--over", a.over,
-            "also count indirect connections over these robots, such as the relays of a mesh")
+            "count connections over these robots (such as the relays of a mesh) as links, too")
         .delimiter(',')
         .needs(margin_to);
     draw.add_option("--storey", a.storey, "storey to draw; the lowest is 1").shows_default();

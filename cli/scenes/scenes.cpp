@@ -204,7 +204,7 @@ Time time_within(const Scenario& scenario, const std::string& text) {
     if (at <= end) return start_of_run + at;
     throw InputError(
         Location{"--at " + text, 0, 0, true},
-        fmt::format("expected a time of the run, which ends at {:.9g} s", seconds(end)));
+        fmt::format("expected a time within the run, which ends at {:.9g} s", seconds(end)));
 }
 
 void scene(const SceneArguments& a) {

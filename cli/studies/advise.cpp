@@ -51,7 +51,8 @@ DecisionRule rule_for(const AdviseArguments& a, const StudyTable& study, std::si
     if (range.closed() && rule.tolerance >= *range.high) {
         throw InputError(
             {fmt::format("--tolerance {}", rule.tolerance), 0, 0, true},
-            fmt::format("expected a value below {}, because two values of {} never differ by more",
+            fmt::format("expected a value below {}, because the difference between two values of "
+                        "{} is never larger",
                         *range.high, a.metric));
     }
     return rule;
@@ -122,8 +123,8 @@ void tell_time(const AdviseArguments& a, const AdviceCandidates& candidates, std
     if (all < long_time) return;
     notice(fmt::format(
         "one run with the reference, {}, takes about {:.2g} s of CPU time. The "
-        "verdicts may need {} to {} such runs ({} to {} on one worker), and additional "
-        "runs of the candidates. --budget {} ends the command earlier, with a "
+        "verdicts may need {} to {} such runs, which take {} to {} on one worker, and additional "
+        "runs of the candidate models. --budget {} ends the command earlier, with a "
         "preliminary verdict. With a cheaper --reference, the command takes less time, too",
         candidates.path_losses[top].name, run_s, std::min(least, most), most,
         duration_text(run_s * static_cast<double>(std::min(least, most))), duration_text(all),

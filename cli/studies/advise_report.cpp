@@ -111,8 +111,9 @@ void print_models(const Advice& advice) {
     for (const CandidateModel& model : advice.candidates.path_losses) {
         if (!model.fitted.empty()) fmt::print("{}: fitted {}\n", model.name, model.fitted);
         if (!model.note.empty()) {
-            fmt::print("{}: not fitted, but judged with the parameters of the file: {}\n",
-                       model.name, model.note);
+            fmt::print(
+                "{}: judged with the parameters of the scenario file, because the fit failed: {}\n",
+                model.name, model.note);
         }
     }
     for (const std::string& text : advice.candidates.left_out) {

@@ -75,9 +75,9 @@ Vary values_to_vary(const CompareArguments& a, const StudyTable& study) {
     }
     if (vary.values.size() >= 2) return vary;
     throw std::invalid_argument(
-        "compare needs two models: give --models disc,friis or a file "
-        "whose [study] varies propagation.model; or --protocols flood,aodv; or another key, such "
-        "as --vary routing.ttl=4,8");
+        "compare: expected at least two models (--models disc,friis, or a file whose [study] "
+        "varies propagation.model), two protocols (--protocols flood,aodv), or two values of "
+        "another key (--vary routing.ttl=4,8)");
 }
 
 /// Metrics that are compared: those that were asked for; of protocols what they deliver, and what
@@ -122,7 +122,7 @@ std::string held_keys(const StudyTable& study, const Scenario& base, const std::
         keys.push_back(value ? fmt::format("{} = {}", vary.path, plain_text(*value)) : vary.path);
     }
     if (keys.empty()) return "";
-    return fmt::format("fixed as in the file: {}", fmt::join(keys, ", "));
+    return fmt::format("kept at the values of the file: {}", fmt::join(keys, ", "));
 }
 
 /// Name of the baseline: of other keys than the model the first value, if none is given; empty for
@@ -156,7 +156,8 @@ void check_margin(const CompareArguments& a, const std::string& metric) {
     if (!a.margin || !range.closed() || *a.margin < *range.high) return;
     throw InputError(
         {fmt::format("--margin {}", *a.margin), 0, 0, true},
-        fmt::format("expected a value below {}, because two values of {} never differ by more",
+        fmt::format("expected a value below {}, because the difference between two values of {} is "
+                    "never larger",
                     *range.high, metric));
 }
 
@@ -210,9 +211,8 @@ void tell_cut_off(Study& study, const Store& store, const Vary& vary,
     }
     if (routing.empty() || most_of_others <= most_of_routing) return;
     notice(fmt::format(
-        "some unicasts are still on their way when a run ends. With {} ({}{} such unicasts in all "
-        "runs), delivery_ratio leaves these unicasts out; with {}, delivery_ratio counts them as "
-        "not delivered",
+        "some unicasts are still on their way when a run ends. The delivery_ratio of {} leaves out "
+        "these unicasts ({}{} in all runs); the delivery_ratio of {} counts them as not delivered",
         fmt::join(others, ", "), others.size() > 1 ? "up to " : "",
         most_of_others - most_of_routing, fmt::join(routing, ", ")));
 }

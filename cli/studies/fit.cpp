@@ -254,8 +254,8 @@ void print_known(const Fit& fit) {
     }
     if (fit.repeatability && fit.repeatability->levels > 0) {
         fmt::print(
-            "repeatability {:.2f} dB: root mean square difference of {} repeated levels; an exact "
-            "model would have an error of {:.2f} dB\n",
+            "repeatability {:.2f} dB: root mean square difference of {} repeated levels; even an "
+            "exact model would have an error of {:.2f} dB\n",
             fit.repeatability->rms, fit.repeatability->levels, fit.repeatability->one_level());
     }
     if (!std::isfinite(c.loss_error)) {
@@ -280,9 +280,9 @@ void print_fit(const Fit& fit, const Scenario& scenario) {
         fmt::print(
             "\nrmse and bias: root mean square error and mean error on each {}, with the model "
             "fitted to all others; 95 %: 95 % of the absolute errors are at most this "
-            "large;\nwrong links: links that are predicted up but are down (up), or predicted down "
-            "but are up (down);\nas given: rmse with the parameters of the file; checked: rmse on "
-            "the levels of --check\n",
+            "large;\nwrong links: links that are down but are predicted to be up (column up), or "
+            "are up but are predicted to be down (column down);\nas given: rmse with the "
+            "parameters of the file; checked: rmse on the levels of --check\n",
             c.known.group_name);
     } else {
         fmt::print(

@@ -166,7 +166,8 @@ void add_locate(Command app) {
     locate
         .add_option(
             "--margin", a.margin,
-            "on an open field: by how much the box around the anchors is widened for the search")
+            "on an open field: the search covers the smallest rectangle around the anchors, "
+            "widened by this length on each side")
         .shows_default();
     add_json(locate, a.json);
 }

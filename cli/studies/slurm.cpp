@@ -77,7 +77,7 @@ SlurmSweep plan(const SweepArguments& a, Study& study, const std::string& store)
     for (std::string word; words >> word;) slurm.sbatch.push_back(word);
     if (slurm.chunk > a.chunk) {
         notice(fmt::format(
-            "chunks have {} runs, more than --chunk, because a job array has at most {} tasks",
+            "a chunk has {} runs, more than --chunk says, because a job array has at most {} tasks",
             slurm.chunk, longest_array));
     }
     return slurm;
@@ -126,8 +126,8 @@ std::string submit_merge(const SlurmSweep& slurm, const std::string& job) {
         return submit(slurm.submit_merge(job));
     } catch (const RunError& error) {
         throw RunError(fmt::format(
-            "the tasks are submitted as job {}, but the job that merges their results is not: "
-            "{}\nwhen the job of the tasks has ended, merge the results by\n  {}",
+            "the tasks were submitted as job {}, but the job that merges the results was not "
+            "submitted: {}\nwhen the job of the tasks has ended, merge the results by\n  {}",
             job, error.what(),
             shell_command(std::vector<std::string>{"bash", slurm.merge_file()})));
     }
@@ -143,8 +143,9 @@ void print_jobs(const SweepArguments& a, const SlurmSweep& slurm, const std::str
         return;
     }
     fmt::print(
-        "job {}: {} tasks of up to {} runs; job {} then merges them into {}\nthe output of the "
-        "tasks is in {}/logs; when both jobs have ended, this command makes missing runs:\n  {}\n",
+        "job {}: {} tasks of up to {} runs; job {} then merges the results into {}\nthe output of "
+        "the tasks is in {}/logs; when both jobs have ended, this command makes missing runs:\n  "
+        "{}\n",
         job, slurm.chunks.size(), slurm.chunk, merge_job, slurm.store, slurm.folder(), a.command);
 }
 

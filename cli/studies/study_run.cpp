@@ -54,8 +54,10 @@ WorkerLimits limits_of(const StudyArguments& a, std::size_t workers) {
 std::string reached_text(const ImprecisePoint& point) {
     if (point.half_width)
         return fmt::format("+- {:.2g} from {} values", *point.half_width, point.values);
-    if (point.values < 2) return fmt::format("no confidence interval from {} values", point.values);
-    return fmt::format("no confidence interval, because its {} values are all equal", point.values);
+    if (point.values < 2)
+        return fmt::format("no confidence interval, because the number of values is {}",
+                           point.values);
+    return fmt::format("no confidence interval, because all {} values are equal", point.values);
 }
 
 }  // namespace

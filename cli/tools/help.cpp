@@ -137,7 +137,7 @@ std::string no_page(const std::vector<std::string>& words, const std::vector<Hel
     std::vector<std::string> topics;
     for (const HelpPage& page : pages) topics.push_back(page.topic);
     const std::string suggestion = did_you_mean(topic, topics);
-    return fmt::format("there is no topic \"{}\", and no page has {}; {}", topic,
+    return fmt::format("there is no topic \"{}\", and no page contains {}; {}", topic,
                        words.size() > 1 ? "one of these words" : "this word",
                        suggestion.empty() ? "rovernet help lists all topics" : suggestion);
 }

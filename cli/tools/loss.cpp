@@ -39,8 +39,8 @@ std::vector<ModelLoss> models_of(const std::vector<std::string>& words) {
         else if (!models.empty())
             models.back().parameters.push_back(word);
         else
-            throw std::invalid_argument(
-                fmt::format("\"{}\" is given before any model; expected MODEL {}", word, word));
+            throw std::invalid_argument(fmt::format(
+                "\"{}\" is a parameter without a model before it; expected MODEL {}", word, word));
     }
     return models;
 }
@@ -134,7 +134,9 @@ void draw_losses(const std::vector<ModelLoss>& models, Hertz frequency, const st
     for (const ModelLoss& m : models) {
         if (!m.has_levels()) {
             throw std::invalid_argument(fmt::format(
-                "the model {} has a range and no losses, so there is no curve to draw", m.model));
+                "the model {} has only a range and computes no losses, so there is no curve to "
+                "draw; expected models that compute losses",
+                m.model));
         }
         ChartSeries& series = chart.series.emplace_back(ChartSeries{.name = m.name()});
         for (const auto& [d, l] : m.rows) series.points.push_back({.x = d.value, .y = l.value});

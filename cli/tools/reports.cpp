@@ -74,7 +74,9 @@ void print_budget(const LinkReport& r) {
 BudgetChart chart_of(const LinkReport& r) {
     if (r.range) {
         throw std::invalid_argument(fmt::format(
-            "the model {} has a range and no levels, so there is no budget to draw", r.model));
+            "the model {} has only a range and computes no levels, so there is no budget to draw; "
+            "expected a model that computes levels",
+            r.model));
     }
     BudgetChart chart{.title = fmt::format("{} to {} at {:.9g} s: {}", r.from, r.to, seconds(r.at),
                                            r.up ? "the link is up" : "no link, " + r.why_down),

@@ -125,9 +125,10 @@ void add_help(Command app) {
     const auto [help, a] = add_command(app, "help", "Print a page of the documentation", cli::help);
     help.add_examples({"rovernet help", "rovernet help first-run", "rovernet help scenario | less",
                        "rovernet help packet loss"});
-    help.add_option("TOPIC", a.words,
-                    "name of a page, or words to search the pages for; without it all pages are "
-                    "listed");
+    help.add_option(
+        "TOPIC", a.words,
+        "name of a page, or words to search the pages for; without TOPIC, all pages are "
+        "listed");
     a.program = app;
 }
 

@@ -397,10 +397,12 @@ void add_replay(Command app) {
         "for an ns-2 trace: radio with which the radios of --with are compared, given as KEY=VALUE "
         "like --with");
     add("--routing", a.routing,
-        "for an ns-2 trace: routing of its messages, flood or direct (default: flood)")
+        "for an ns-2 trace: how the replay forwards its messages: flood, or direct (one hop to the "
+        "destination; default: flood)")
         .one_of({"flood", "direct"});
     add("--movements", a.movements, "for an ns-2 trace: movement file of its robots");
-    add("--store", a.store, "also write the rows to this file, for rovernet results and plot");
+    add("--store", a.store,
+        "also write the results to this file, which rovernet results and rovernet plot read");
     add_json(replay, a.json);
 }
 

@@ -57,8 +57,8 @@ void tell_of_log(const InputReplay& replay) {
     for (const std::string& other : replay.others) {
         notice(
             other +
-            ": this is the log of a different run that did not end; to replay this log, give its "
-            "name instead of the folder");
+            ": this is the log of a different run that did not end; to replay this log, give the "
+            "name of this file instead of the folder");
     }
 }
 

@@ -52,8 +52,8 @@ void check_is_recorded(const TraceConvertArguments& a, std::string_view why) {
     if (is_recorded_trace(a.in)) return;
     need_file(a.in);
     throw InputError({.source = a.in},
-                     fmt::format("{} can be made only from a recorded trace (run --record), "
-                                 "because {} in the recorded trace",
+                     fmt::format("{} can be made only from a recorded trace (rovernet run "
+                                 "--record), because {} in the recorded trace",
                                  a.to, why));
 }
 

@@ -109,7 +109,7 @@ void print_without(const FollowedMessage& way, const TraceNames& names) {
     if (way.to || way.without.empty()) return;
     std::string list;
     for (const NodeId node : way.without) list += (list.empty() ? "" : ", ") + names.of(node);
-    fmt::print("\nwithout a copy: {}\n", list);
+    fmt::print("\nrobots without a copy: {}\n", list);
 }
 
 /// Others on air with a frame: the two strongest, and how many more.

@@ -261,13 +261,13 @@ void serve_page(const ViewArguments& a, const std::string& trace, ViewedRun run,
 void check_options(const ViewArguments& a) {
     if (a.other && !a.with.empty()) {
         throw CommandEnd(usage,
-                         fmt::format("view: found a second run, {}, and --with {}; expected one of "
-                                     "them: --with makes the second run from the first",
+                         fmt::format("view: found a second run, {}, and --with {}; expected only "
+                                     "one of the two: --with makes the second run from the first",
                                      *a.other, a.with[0]));
     }
     if (a.out && (a.listen || a.address != ViewArguments().address)) {
-        throw CommandEnd(usage, fmt::format("view: found -o and {}; expected one of them: -o "
-                                            "writes the page to a file, without a server",
+        throw CommandEnd(usage, fmt::format("view: found -o and {}; expected only one of the two: "
+                                            "-o writes the page to a file, without a server",
                                             a.listen ? "--listen" : "--address"));
     }
     const bool has_ns2 =
@@ -330,7 +330,8 @@ void add_view(Command app) {
     view.add_option(
             "--with", a.with,
             "KEY=VALUE of a different radio or model (several are separated by \";\"): show a "
-            "second run with it, in which robots move and send messages as in the first run")
+            "second run with this radio or model, in which robots move and send messages as in the "
+            "first run")
         .one_word();
     view.add_option("--movements", a.movements, "for an ns-2 trace: movement file of its robots");
     view.add_option("-o,--output", a.out,
@@ -342,8 +343,8 @@ void add_view(Command app) {
         .shows_default();
     view.add_option("--listen", a.listen,
                     "serve the page to other machines, too, at this IP address of this machine "
-                    "(0.0.0.0: at all its addresses); browsers there need the token in the printed "
-                    "address");
+                    "(0.0.0.0: at all addresses of this machine); browsers on other machines need "
+                    "the token in the printed address");
     view.add_option("--from", a.from, "show only frames from this time of the run on");
     view.add_option("--to", a.to, "show only frames up to this time of the run");
     view.add_option(

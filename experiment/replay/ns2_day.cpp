@@ -51,8 +51,8 @@ class Ns2DayReader {
     std::string left_out() const {
         if (left_out_ == 0) return "";
         return fmt::format(
-            "{} messages are left out, because their destination is their sender, or is not a "
-            "robot of the trace",
+            "{} messages are left out, because each of them was sent to its own sender, or to a "
+            "robot that is not in the trace",
             left_out_);
     }
     std::vector<DayLog::Said> said;

@@ -121,15 +121,15 @@ std::vector<std::string> record_ns2_trace(const std::string& path, const std::st
     trace.close();
     std::vector<std::string> sentences = day.notices();
     sentences.emplace_back(
-        "An ns-2 trace contains no map and no radio: levels and reasons are computed for ns-2's "
-        "default radio on an open field.");
+        "An ns-2 trace contains no map and no radio: levels, and the reasons why frames are lost, "
+        "are computed for ns-2's default radio on an open field.");
     const std::string_view losses =
         writing->has_losses() ? ""
                               : "This trace contains no lost frames: which robots could have heard "
                                 "a lost frame is not shown. ";
     sentences.push_back(fmt::format(
-        "{}The shown duration of a frame ends at its first reception, and includes its time in the "
-        "queue.",
+        "{}The shown duration of a frame ends at the first reception of the frame, and includes "
+        "the time that the frame waits in the queue.",
         losses));
     return sentences;
 }

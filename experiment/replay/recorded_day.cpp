@@ -161,8 +161,8 @@ std::string RecordedDay::starts_together(const std::vector<std::string>& set) co
     return fmt::format(
         "{} of {} messages are sent at nearly the same time as a message of a different robot (the "
         "frames overlap in time). access.model={} does not separate these frames, so the frames "
-        "collide. access.model=csma with access.immediate_access=false draws a backoff before "
-        "each frame, as ns-2 does",
+        "collide. With access.model=csma and access.immediate_access=false, robots draw a backoff "
+        "before each frame, as in ns-2",
         met, log_.said.size(), scenario.access.name());
 }
 
@@ -200,13 +200,13 @@ std::string RecordedDay::hears_farther(const std::vector<std::string>& set) cons
         run_.robots[farthest->from.index()], metres, seconds(farthest->time - start_of_run));
     if (disc)
         return fmt::format(
-            "{}, but the first radio of the replay reaches only {:g} m; --as "
-            "\"propagation.model=disc;propagation.range={:.0f} m\" has this range",
+            "{}, but the first radio of the replay reaches only {:g} m; give this radio a larger "
+            "range: --as \"propagation.model=disc;propagation.range={:.0f} m\"",
             found, disc->range.value, std::ceil(metres));
     const double power = scenario.radio.power.value + std::ceil(missing * 10) / 10;
     return fmt::format(
-        "{}, but this is {:.1f} dB below the sensitivity of the first radio of the replay; --as "
-        "\"radio.power={:.1f} dBm\" is strong enough",
+        "{}, but with the first radio of the replay, the received power is {:.1f} dB below the "
+        "sensitivity; give this radio enough power: --as \"radio.power={:.1f} dBm\"",
         found, missing, power);
 }
 

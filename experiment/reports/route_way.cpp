@@ -98,7 +98,7 @@ std::string route_way_text(const Network& network, const RouteWay& way) {
         return fmt::format("{} breaks off at {}: {}{}", text, network.name(*way.broken_at),
                            way.reason, way.hops.empty() ? "" : fmt::format(" ({})", robots));
     }
-    return fmt::format("{}: {}, {} hop{}, oldest part learnt {:.3g} s ago", text, robots,
+    return fmt::format("{}: {}, {} hop{}, oldest hop learnt {:.3g} s ago", text, robots,
                        way.hops.size(), way.hops.size() == 1 ? "" : "s", seconds(oldest));
 }
 

@@ -11,7 +11,8 @@ namespace {
 
 [[noreturn]] void fail(const std::string& text, const std::string& why) {
     throw std::invalid_argument(fmt::format(
-        "{}: {}; expected an address of this machine alone, such as 127.0.0.1:7007", text, why));
+        "{}: {}; expected an address that only this machine can reach, such as 127.0.0.1:7007",
+        text, why));
 }
 
 std::uint16_t read_port(const std::string& text, const std::string& port) {

@@ -37,7 +37,8 @@ class Robots : public CommandReader {
         if (advice.empty()) {
             const bool is_cut = names.size() > listed;
             names.resize(std::min(names.size(), listed));
-            advice = fmt::format("there are {}{}", fmt::join(names, ", "), is_cut ? " ..." : "");
+            advice =
+                fmt::format("the robots are {}{}", fmt::join(names, ", "), is_cut ? " ..." : "");
         }
         at.fail("unknown_robot", fmt::format("no robot {}; {}", name, advice));
     }
@@ -53,12 +54,14 @@ class Robots : public CommandReader {
     NodeId own_robot(const JsonElement& at, NodeId robot) const {
         if (own.empty()) {
             at.fail("hello_first",
-                    fmt::format("send a message of type hello first, which lists robot {}",
+                    fmt::format("first send a message of type \"hello\" that lists robot {}",
                                 network.name(robot)));
         }
         if (!std::binary_search(own.begin(), own.end(), robot)) {
-            at.fail("not_yours", fmt::format("robot {} is not among the robots in your hello",
-                                             network.name(robot)));
+            at.fail("not_yours",
+                    fmt::format("robot {} is not among the robots in your message of type "
+                                "\"hello\"",
+                                network.name(robot)));
         }
         return robot;
     }
@@ -102,7 +105,9 @@ void read_observed(const JsonElement& list, HelloRequest& hello) {
         }
         item.fail(
             "bad_value",
-            advised(fmt::format("found \"{}\"; expected pose, heard, neighbors or scan", what),
+            advised(fmt::format("found \"{}\"; expected \"pose\", \"heard\", \"neighbors\" or "
+                                "\"scan\"",
+                                what),
                     did_you_mean(what, {"pose", "heard", "neighbors", "scan"})));
     });
 }
@@ -162,7 +167,7 @@ std::vector<double> numbers_in(const std::optional<JsonElement>& list, std::size
     for_each_item(*list, [&](const JsonElement& item) { numbers.push_back(item.number(range)); });
     if (numbers.size() != size) {
         list->fail("bad_value",
-                   fmt::format("found {} numbers for {} robots; expected one for each robot",
+                   fmt::format("found {} numbers for {} robots; expected one number for each robot",
                                numbers.size(), size));
     }
     return numbers;
@@ -272,7 +277,9 @@ Request RequestReader::read(std::string_view line, const Network& network,
         return ByeRequest{};
     }
     type.fail("unknown_type",
-              advised(fmt::format("found \"{}\"; expected hello, step, reset or bye", what),
+              advised(fmt::format("found \"{}\"; expected \"hello\", \"step\", \"reset\" or "
+                                  "\"bye\"",
+                                  what),
                       did_you_mean(what, {"hello", "step", "reset", "bye"})));
 }
 

@@ -155,8 +155,9 @@ void DeviceAddresses::check_host(const Addressed& each, Network4 network) {
     if (has_told_made_) return;
     has_told_made_ = true;
     notices_.push_back(
-        fmt::format("robot {}: {}, so programs cannot reach it; give [radio] a netmask with fewer "
-                    "bits that are 1 (a larger network), such as netmask = \"255.255.0.0\"",
+        fmt::format("robot {}: {}, so programs cannot reach this robot; give [radio] a netmask "
+                    "with fewer bits that are 1 (a larger network), such as netmask = "
+                    "\"255.255.0.0\"",
                     each.device.robot, what));
 }
 

@@ -63,8 +63,8 @@ void check_udp_ports(const Address& first, std::size_t robots) {
     constexpr std::size_t after_last = 65'536;
     if (first.port == 0 || robots <= after_last - first.port) return;
     throw std::invalid_argument(
-        fmt::format("{}: found {} robots, each of which needs its own port, from {} on; expected "
-                    "{} robots at most",
+        fmt::format("{}: found {} robots, each of which needs its own port, from port {} on; "
+                    "expected {} robots at most",
                     first.text(), robots, first.port, after_last - first.port));
 }
 

@@ -159,8 +159,8 @@ std::string Search::other_users() const {
         fmt::format("; run {} of user {} has a robot {}", run, user_name(owner), robot_);
     if (geteuid() != 0) return words + ": only this user and root may enter the run";
     return fmt::format(
-        "{}: --user {} enters this run, but then its user can read and change all packets of the "
-        "program that you start there",
+        "{}: with --user {} you enter this run, but then this user can read and change all packets "
+        "of the program that you start there",
         words, owner);
 }
 
@@ -198,7 +198,9 @@ void Search::fail(bool was_there) const {
     if (all.names.empty()) {
         const std::string which =
             wanted_.process
-                ? fmt::format("you have no running emulation {} on this machine", *wanted_.process)
+                ? fmt::format(
+                      "you have no running emulation with the process id {} on this machine",
+                      *wanted_.process)
                 : "you have no running emulation on this machine; start one with rovernet emulate "
                   "FILE";
         throw std::invalid_argument(which + other_users());

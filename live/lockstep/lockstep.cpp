@@ -101,7 +101,9 @@ bool Lockstep::come_back(Connection from, const HelloRequest& hello) {
 void Lockstep::check_claims(const HelloRequest& hello) {
     if (controllers_.named(hello.name)) {
         throw RequestError("taken", "name",
-                           fmt::format("there is already a controller named {}", hello.name));
+                           fmt::format("there is already a controller named {}; expected a "
+                                       "different name",
+                                       hello.name));
     }
     for (std::size_t i = 0; i < hello.robots.size(); ++i) {
         if (!session_->driver(hello.robots[i])) continue;
@@ -112,8 +114,8 @@ void Lockstep::check_claims(const HelloRequest& hello) {
     const auto measures = [&](NodeId robot) { return !session_->range_finders(robot).empty(); };
     if (hello.observes_scan && std::ranges::none_of(hello.robots, measures)) {
         throw RequestError("bad_value", "observe",
-                           "no robot of this hello has a range finder; expected a robot with scan "
-                           "= {...} in the scenario");
+                           "no robot of this message has a range finder; expected a robot with "
+                           "scan = {...} in the scenario");
     }
     const bool is_free =
         !has_started_ && std::none_of(controllers_.begin(), controllers_.end(),
@@ -121,15 +123,16 @@ void Lockstep::check_claims(const HelloRequest& hello) {
     if (hello.seed && *hello.seed != seed_ && !is_free) {
         throw RequestError(
             "other_seed", "seed",
-            fmt::format(
-                "found {}, but the run already has the seed {}; expected this seed, or no key seed",
-                *hello.seed, seed_));
+            fmt::format("found the seed {}, but the run already has the seed {}; expected the seed "
+                        "of the run, or no key \"seed\"",
+                        *hello.seed, seed_));
     }
 }
 
 void Lockstep::handle(Connection from, HelloRequest& hello) {
     if (controllers_.of(from)) {
-        throw RequestError("hello_again", "type", "you have already sent a message of type hello");
+        throw RequestError("hello_again", "type",
+                           "you have already sent a message of type \"hello\"");
     }
     if (hello.name.empty()) hello.name = session_->network().name(hello.robots.front());
     if (!come_back(from, hello)) join(from, hello);
@@ -166,12 +169,13 @@ void Lockstep::start_if_complete() {
 Controller& Lockstep::asking(Connection from) {
     Controller* controller = controllers_.of(from);
     if (!controller)
-        throw RequestError("hello_first", "type", "expected a message of type hello first");
+        throw RequestError("hello_first", "type", "expected a message of type \"hello\" first");
     if (!has_started_) {
         throw RequestError(
             "too_early", "",
-            fmt::format("{} of {} controllers are connected; wait for the message of type welcome",
-                        controllers_.size(), settings_.wait_for));
+            fmt::format(
+                "{} of {} controllers are connected; wait for the message of type \"welcome\"",
+                controllers_.size(), settings_.wait_for));
     }
     if (controller->state != Controller::State::owes) {
         throw RequestError("too_early", "",
@@ -185,10 +189,12 @@ void Lockstep::handle(Connection from, StepRequest& step) {
     if (controller.has_stepped && step.number <= controller.step.number) {
         throw RequestError(
             "old_number", "n",
-            fmt::format("found {}; expected more than {}", step.number, controller.step.number));
+            fmt::format("found the number {}; expected a number larger than {}, the number of the "
+                        "previous step",
+                        step.number, controller.step.number));
     }
     if (is_at_end()) {
-        throw RequestError("done", "type", "the run is at its end; expected reset or bye");
+        throw RequestError("done", "type", "the run is at its end; expected \"reset\" or \"bye\"");
     }
     for (const auto& [robot, command] : step.commands) {
         const std::string why = session_->why_not(robot, command);
@@ -256,12 +262,12 @@ void Lockstep::lose(Connection gone) {
     controllers_.remove(gone);
     if (is_expected && !(has_started_ && controllers_.empty())) return;
     if (!is_expected && settings_.on_loss == OnLoss::stop && !controllers_.empty()) return;
-    end_run(
-        is_expected ? "done" : "lost",
-        is_expected
-            ? ""
-            : fmt::format("controller {} has disconnected at {} s without a message of type bye",
-                          name, seconds(session_->network().now())));
+    end_run(is_expected ? "done" : "lost",
+            is_expected
+                ? ""
+                : fmt::format(
+                      "controller {} has disconnected at {} s without a message of type \"bye\"",
+                      name, seconds(session_->network().now())));
 }
 
 void Lockstep::answer(Controller& controller) {
@@ -309,7 +315,7 @@ void Lockstep::catch_up() {
 void Lockstep::held(std::chrono::nanoseconds waited) {
     const std::size_t present = controllers_.size(), wanted = settings_.wait_for;
     if (!has_started_ && settings_.programs && *settings_.programs < wanted) {
-        return end_run("lost", "a controller has ended before it sent a message of type hello");
+        return end_run("lost", "a controller has ended before it sent a message of type \"hello\"");
     }
     if (!has_started_ && told_present_ != present) {
         told_present_ = present;
@@ -332,8 +338,8 @@ void Lockstep::end_if_slow() {
         commands.push_back(fmt::format("\"{}\"", command));
     }
     if (commands.empty()) return;
-    end_run("patience", fmt::format("no hello within {:g} s from controller {}", patience.count(),
-                                    fmt::join(commands, ", ")));
+    end_run("patience", fmt::format("no message of type \"hello\" within {:g} s from controller {}",
+                                    patience.count(), fmt::join(commands, ", ")));
 }
 
 std::chrono::milliseconds Lockstep::time_to_end() const {

@@ -120,7 +120,7 @@ void SteppedRun::fill_request() {
 
 bool SteppedRun::step(std::uint64_t most_events, const std::function<bool()>& go_on) {
     Session& session = run().session();
-    if (is_done()) throw RunError("the run is at its end; expected reset or finish");
+    if (is_done()) throw RunError("the run is at its end; expected a reset or a finish");
     fill_request();
     controller().ask(session, request_);
     controllers_.carry_out(session);

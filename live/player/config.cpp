@@ -107,9 +107,10 @@ void DriversReader::join(const WorldEntity& driver, std::string_view name) {
     const auto opaque = std::find_if(provides.begin(), provides.end(),
                                      [](const auto& each) { return each.interface == "opaque"; });
     if (opaque == provides.end()) {
-        throw InputError(driver.where, fmt::format("{}: provides has no opaque device; "
-                                                   "expected provides [ \"6665:opaque:1\" ]",
-                                                   name));
+        throw InputError(driver.where,
+                         fmt::format("{}: found no opaque device in \"provides\"; expected "
+                                     "provides [ \"6665:opaque:1\" ]",
+                                     name));
     }
     ProvidedRobot* robot = robot_of(configured_devices(driver, "requires"), opaque->port);
     if (!robot) {

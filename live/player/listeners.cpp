@@ -34,8 +34,8 @@ FrontListeners player_ports(const Address& first, const std::vector<std::string>
     const std::size_t ports = first.port == 0 ? most_player_ports : 65'536U - first.port;
     if (robots.size() > std::min(ports, most_player_ports)) {
         throw std::invalid_argument(
-            fmt::format("found {} robots, each of which needs its own port, from {} on; expected "
-                        "{} robots at most, or --player-one-port",
+            fmt::format("found {} robots, each of which needs its own port, from port {} on; "
+                        "expected {} robots at most, or --player-one-port",
                         robots.size(), first.port, std::min(ports, most_player_ports)));
     }
     std::vector<FrontListeners::Entry> entries;

@@ -182,8 +182,8 @@ void RosbridgeFront::carry_out(Client& client, const RosCall& call) {
     const bool is_step = call.service.kind() == RosServiceKind::step;
     if (is_step && clock_.steps(client.connection) >= most_steps) {
         throw RequestError("too_many", "service",
-                           fmt::format("{} steps of this client are not over yet; expected {} at "
-                                       "most",
+                           fmt::format("{} steps of this client are not finished yet; expected {} "
+                                       "unfinished steps at most",
                                        most_steps, most_steps));
     }
     std::optional<std::uint64_t> uid;

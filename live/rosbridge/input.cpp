@@ -68,7 +68,7 @@ void check_frame(const std::optional<JsonElement>& header, const std::string& od
     const std::string_view name = plain_name(frame->text());
     if (name.empty() || name == "map" || name == odometry) return;
     frame->fail("bad_value",
-                fmt::format("found the frame \"{}\"; expected map or {}", name, odometry));
+                fmt::format("found the frame \"{}\"; expected \"map\" or \"{}\"", name, odometry));
 }
 
 std::pair<RobotCommand, std::string> read_goal(const JsonElement& message, NodeId robot,

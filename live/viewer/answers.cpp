@@ -123,7 +123,9 @@ Table ViewerAnswers::answer_of(std::string_view op, const JsonElement& question)
     if (op == "svg") return svg(question);
     throw RequestError(
         "unknown_op", "op",
-        fmt::format("found \"{}\", expected why, air, pair, robot, links, coverage or svg", op));
+        fmt::format("found \"{}\"; expected \"why\", \"air\", \"pair\", \"robot\", \"links\", "
+                    "\"coverage\" or \"svg\"",
+                    op));
 }
 
 NodeId ViewerAnswers::robot(const JsonElement& question, std::string_view key) const {

@@ -88,7 +88,8 @@ ViewHistory& ViewFront::history() {
     if (!history_)
         throw RequestError(
             "over", "op",
-            "the run has ended, and nothing was kept of it, because no page was open at its end");
+            "the run has ended, and no data of the run were kept, because no page was open at the "
+            "end");
     return *history_;
 }
 
@@ -131,7 +132,8 @@ Table ViewFront::series() const {
     if (!stream_)
         throw RequestError(
             "over", "op",
-            "the run has ended, and nothing was kept of it, because no page was open at its end");
+            "the run has ended, and no data of the run were kept, because no page was open at the "
+            "end");
     Table answer;
     answer.set("from_ns", (stream_->begin() - start_of_run).count());
     answer.set("series", stream_->series());

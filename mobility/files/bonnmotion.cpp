@@ -117,10 +117,10 @@ void BonnMotionReader::refuse_track() const {
     if (times_.empty() || times_.front() == times_.back()) return;
     throw InputError(
         {.source = numbers_.source()},
-        fmt::format("each of the {} lines of this file has one place, at a later time than the "
-                    "line before: this is a track, with a line for each time; expected a line for "
-                    "each robot, with \"time x y\" once or more (to convert a track of one robot: "
-                    "tr '\\n' ' ' < TRACK > FILE)",
+        fmt::format("each of the {} lines of this file has only one place, at a later time than in "
+                    "the line before: this is a track with one line for each time; expected one "
+                    "line for each robot, with \"time x y\" once or more (to convert a track of "
+                    "one robot: tr '\\n' ' ' < TRACK > FILE)",
                     robots.size()));
 }
 

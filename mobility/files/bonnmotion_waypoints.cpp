@@ -77,7 +77,9 @@ class WaypointLine {
     [[noreturn]] void fail_empty(const BonnMotionNumbers& n) const {
         Location where = n.line();
         where.line = empty_line_;
-        throw InputError(where, "found an empty line before the last node, expected waypoints");
+        throw InputError(where,
+                         "found an empty line before the last node, expected a line with the "
+                         "waypoints of a node");
     }
     [[noreturn]] void fail_length(const BonnMotionNumbers& n) const {
         Location where = n.line();
@@ -85,8 +87,8 @@ class WaypointLine {
         const std::string_view z = columns_.z ? " z" : "";
         const std::string_view status = columns_.status ? " status" : "";
         throw InputError(
-            where, fmt::format("found a line of {} number{}, expected \"time x y{}{}\" "
-                               "once or more: a multiple of {}",
+            where, fmt::format("found a line of {} number{}, expected \"time x y{}{}\" once or "
+                               "more, so a multiple of {} numbers",
                                in_line_, in_line_ == 1 ? "" : "s", z, status, columns_.width()));
     }
 
@@ -145,7 +147,8 @@ class Readings {
         const Failure& other = failed_.front();
         if (other.error.where().line != line) throw last;
         if (length_ % other.width == 0) throw other.error;
-        throw InputError(last.where(), fmt::format("{}, or of {}", last.message(), other.width));
+        throw InputError(last.where(),
+                         fmt::format("{}, or of {} numbers", last.message(), other.width));
     }
 
     std::vector<Reading> left_;
@@ -164,7 +167,11 @@ int BonnMotionNumbers::column() const {
 /// before an error.
 void BonnMotionNumbers::check_length() const {
     if (source_.taken() - line_start_ <= longest_line) return;
-    throw InputError(where_, fmt::format("a line is longer than {} bytes", longest_line));
+    throw InputError(
+        where_,
+        fmt::format(
+            "a line is longer than {} bytes, which is the limit; check that this is the right file",
+            longest_line));
 }
 
 /// Skips to the next byte that is not blank. False at the end of the file.

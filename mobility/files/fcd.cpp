@@ -272,8 +272,9 @@ void FcdReader::read_robot() {
 Word FcdReader::needed(std::string_view attribute) {
     const auto word = tags_.value(attribute);
     if (word && !word->text.empty()) return *word;
-    throw InputError(tags_.where(), fmt::format("found <{}> without {}, expected {}=\"...\"",
-                                                tags_.name(), attribute, attribute));
+    throw InputError(tags_.where(),
+                     fmt::format("found <{}> without the attribute {}, expected {}=\"...\"",
+                                 tags_.name(), attribute, attribute));
 }
 
 std::uint32_t FcdReader::robot_of(Word id) {

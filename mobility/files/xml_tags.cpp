@@ -129,8 +129,9 @@ void XmlTags::skip_past(std::string_view end, std::size_t from) {
             from = 0;
         }
         if (!source_.more())
-            throw InputError(begin,
-                             fmt::format("found no end of what begins here, expected \"{}\"", end));
+            throw InputError(begin, fmt::format("the comment or processing instruction that begins "
+                                                "here has no end, expected \"{}\"",
+                                                end));
     }
 }
 
@@ -178,7 +179,9 @@ std::string_view XmlTags::tag() {
         if (!too_long && source_.more()) continue;
         where_.column = word_at(source_.window()).column;
         throw InputError(where_, too_long
-                                     ? fmt::format("a tag is longer than {} bytes", longest_tag)
+                                     ? fmt::format("a tag is longer than {} bytes, which is the "
+                                                   "limit; check that this is the right file",
+                                                   longest_tag)
                                      : "the file ends inside a tag, expected \">\"");
     }
 }
@@ -225,7 +228,7 @@ void XmlTags::parse_close(std::string_view text) {
 void XmlTags::parse_open(std::string_view text) {
     name_ = name_in(text.substr(1));
     if (name_.empty()) fail(text, "the name of an element after <");
-    if (open_.empty() && had_root_) fail(text, "the end of the file after its one element");
+    if (open_.empty() && had_root_) fail(text, "the end of the file after the outermost element");
     if (open_.size() == deepest) fail(text, "elements nested at most 64 levels deep");
     attributes_.clear();
     std::size_t at = 1 + name_.size();

@@ -117,8 +117,8 @@ void ItuIndoor::check_frequency(Hertz f) const {
     const auto env = name_of(*environment);
     if (!coefficient && !nearest_row(coefficients, *environment, mhz)) {
         throw std::invalid_argument(fmt::format(
-            "itu_indoor: for environment \"{}\" the model has no coefficient at a frequency within "
-            "a factor {} of {} MHz, only coefficients at {}; give the key \"coefficient\"",
+            "itu_indoor: for environment \"{}\", the model has coefficients only at frequencies "
+            "that differ by more than a factor of {} from {} MHz: {}; give the key \"coefficient\"",
             env, widest_ratio, mhz, frequencies(coefficients, *environment)));
     }
     if (floors.value_or(0) == 0) return;
@@ -126,9 +126,12 @@ void ItuIndoor::check_frequency(Hertz f) const {
     if (!row || *floors > row->most_floors) {
         throw std::invalid_argument(
             fmt::format("itu_indoor: the model has no loss of {} floors for environment \"{}\" at "
-                        "{} MHz; it has floor losses at {}{}",
+                        "{} MHz; the model has losses of floors only at {}{}; expected a different "
+                        "frequency or number of floors",
                         *floors, env, mhz, frequencies(floor_losses, *environment),
-                        row ? fmt::format(", for up to {} floors", row->most_floors) : ""));
+                        row ? fmt::format(" (at the nearest of these frequencies: up to {} floors)",
+                                          row->most_floors)
+                            : ""));
     }
 }
 

@@ -148,8 +148,8 @@ std::vector<std::string> Viewed::damage() const {
         all.push_back(fmt::format("The trace is damaged: {}.", what));
         if (what != "the end is missing") continue;
         all.push_back(fmt::format(
-            "It reaches up to {:.6f} s of {:.6g} s: what happened after this time is not known, "
-            "and all robots are shown at their last known places.",
+            "The trace reaches up to {:.6f} s of {:.6g} s: what happened after this time is not "
+            "known, and all robots are shown at their last known places.",
             seconds(reader_.now()), seconds(run_.scenario.scenario.duration)));
     }
     return all;

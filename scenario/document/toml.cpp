@@ -183,8 +183,8 @@ Value& item_at(Array& list, const std::string& step, bool is_name, const Locatio
         if (const std::string* name = name_of(item)) names.push_back(*name);
     }
     if (names.empty()) {
-        throw InputError(option, fmt::format("\"{}\" is a key of an item of a list; expected the "
-                                             "number of the item before this key, from 0 to {}",
+        throw InputError(option, fmt::format("\"{}\" is a key of the items of a list; write the "
+                                             "number of an item before this key, from 0 to {}",
                                              step, list.size() - 1));
     }
     fail_unnamed(step, names, option);
@@ -196,8 +196,9 @@ Value& descend(Value& at, const std::string& step, bool is_name, const Location&
     if (Array* list = at.array()) return item_at(*list, step, is_name, option);
     Table* table = at.table();
     if (!table) {
-        throw InputError(
-            option, fmt::format("\"{}\" is inside {}, which has no keys", step, at.description()));
+        throw InputError(option, fmt::format("found the key \"{}\" inside {}, which has no keys; "
+                                             "check the dots in the name of the key",
+                                             step, at.description()));
     }
     if (!table->find(step)) {
         Value made{Table{}};

@@ -116,8 +116,9 @@ std::string open_text_message(std::string_view description, const Place& place) 
                             (place.next() == '\n' || place.next() == '\r'));
     if (!is_at_end || !contains(description, "string")) return "";
     const char quote = contains(description, "literal string") ? '\'' : '"';
-    return fmt::format("not TOML: the closing quote of a text is missing; expected {} at its end",
-                       quote);
+    return fmt::format(
+        "not TOML: the closing quote of a text is missing; expected {} at the end of the text",
+        quote);
 }
 
 }  // namespace

@@ -86,7 +86,7 @@ std::string header_message(const KeyPath& name, std::string_view what, bool insi
     if (inside) {
         return fmt::format(
             "[{}]: this name begins with a key that already has a value, so no keys can be added "
-            "to that key; expected all keys of a table in one place",
+            "to that key; give this table a different name, or remove that key",
             name.text);
     }
     if (name.text == "robot" || name.text == "traffic") {
@@ -96,14 +96,17 @@ std::string header_message(const KeyPath& name, std::string_view what, bool insi
     }
     if (!what.starts_with("table"))
         return fmt::format("the key \"{}\" occurs a second time; expected the key once", name.text);
-    return fmt::format("[{0}] occurs a second time; expected one [{0}] with all its keys",
-                       name.text);
+    return fmt::format(
+        "[{0}] occurs a second time; expected one header [{0}], and all keys of this table below "
+        "it",
+        name.text);
 }
 
 /// Message for a key, of which `what` is the first value's kind.
 std::string key_message(const KeyPath& name, std::string_view what) {
-    return fmt::format("the key \"{}\" occurs a second time; expected {}", name.text,
-                       what.starts_with("table") ? "all its keys in one table" : "the key once");
+    return fmt::format(
+        "the key \"{}\" occurs a second time; expected {}", name.text,
+        what.starts_with("table") ? "all keys of this table in one place" : "the key once");
 }
 
 }  // namespace

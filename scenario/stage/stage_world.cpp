@@ -176,10 +176,10 @@ void Gatherer::check_label(const Table& radio, std::string_view key, const std::
     const auto [other, is_new] =
         labels_.try_emplace(fmt::format("{} \"{}\"", key, *label->string()), name, label->where);
     if (is_new) return;
-    note(world_notice(
-        label->where,
-        fmt::format("{} of robot \"{}\" is also used by robot \"{}\" ({})", other->first, name,
-                    other->second.first, other->second.second.text())));
+    note(world_notice(label->where, fmt::format("the {} of robot \"{}\" is also used by robot "
+                                                "\"{}\" ({}); give each robot a different address",
+                                                other->first, name, other->second.first,
+                                                other->second.second.text())));
 }
 
 void Gatherer::scenario(Table& document) {

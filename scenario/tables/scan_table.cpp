@@ -30,11 +30,10 @@ void check_fan(const RangeFinder& fan, TableReader& table) {
     const Radians spread = fan.to - fan.from;
     if (spread.value >= 0 && spread.value <= whole_turn) return;
     const Value* to = table.take("to");
-    throw InputError(
-        to ? to->where : table.where(),
-        fmt::format(
-            "scan: found a `to` that is {:.6g} degrees after `from`; expected 0 to 360 degrees",
-            360 * spread.value / whole_turn));
+    throw InputError(to ? to->where : table.where(),
+                     fmt::format("scan: found an angle of {:.6g} degrees from the key `from` to "
+                                 "the key `to`; expected 0 to 360 degrees",
+                                 360 * spread.value / whole_turn));
 }
 
 void check_ring(const Scanner& ring, const Value& angles, TableReader& table) {
@@ -42,8 +41,9 @@ void check_ring(const Scanner& ring, const Value& angles, TableReader& table) {
         if (table.take(key)) table.only_one_of("angles", key);
     }
     if (ring.angles.empty() || ring.angles.size() > most_beams) {
-        throw InputError(angles.where, fmt::format("angles: found {} beams; expected 1 to 10,000",
-                                                   ring.angles.size()));
+        throw InputError(angles.where,
+                         fmt::format("angles: found {} angles; expected 1 to 10,000 angles",
+                                     ring.angles.size()));
     }
     if (ring.finder.kind == RangeFinderKind::laser) {
         throw InputError(angles.where,

@@ -41,8 +41,8 @@ std::optional<Amount> amount_of(const Value& value) {
 Amount read_amount(const Value& range, std::string_view path, std::string_view key) {
     const Value* value = range.table()->find(key);
     if (!value) {
-        throw InputError(range.where, fmt::format("vary.\"{}\": the key \"{}\" is missing; "
-                                                  "expected {{ from = 1, to = 10, step = 1 }}",
+        throw InputError(range.where, fmt::format("vary.\"{}\": the key \"{}\" is missing; for "
+                                                  "example {{ from = 1, to = 10, step = 1 }}",
                                                   path, key));
     }
     const auto amount = amount_of(*value);
@@ -83,8 +83,8 @@ Array expand(const Value& range, std::string_view path) {
     if (step.number == 0 || steps < 0) {
         throw InputError(
             range.where,
-            fmt::format("vary.\"{}\": the step never leads from {} to {}; expected step > 0 "
-                        "and from <= to, or step < 0 and from >= to",
+            fmt::format("vary.\"{}\": the step never leads from {} to {}; expected a step > 0 if "
+                        "\"from\" <= \"to\", or a step < 0 if \"from\" >= \"to\"",
                         path, from.number, to.number));
     }
     if (steps >= most_values) {
@@ -236,7 +236,7 @@ void read_warmup(const Value& value, Duration duration, Warmup& warmup) {
         throw InputError(value.where, error.message() + ", or \"mser5\"");
     }
     if (warmup.given < Duration{0}) {
-        throw InputError(value.where, fmt::format("warmup: found {}; expected a value >= 0",
+        throw InputError(value.where, fmt::format("warmup: found {}; expected a time >= 0 s",
                                                   value.description()));
     }
     if (warmup.given >= duration) {

@@ -40,7 +40,8 @@ File open(const std::string& path) {
     if (kind != InputKind::file) fail("is not a regular file", "copy it to a file");
     File file(std::fopen(path.c_str(), "rb"));
     if (!file)
-        image_error(path, "cannot be opened; expected a readable image; check its permissions");
+        image_error(
+            path, "cannot be opened; expected a readable image; check the permissions of the file");
     return file;
 }
 

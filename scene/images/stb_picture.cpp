@@ -83,7 +83,7 @@ Image read_by_library(const std::string& path, std::FILE* file, std::string_view
             fmt::format("truncated {}; expected a whole image; save the picture again", kind));
     if (!known || !pixels)
         image_error(path, fmt::format("damaged {0}, or a kind of {0} that is not supported ({1}); "
-                                      "expected a whole image; save it as PNG",
+                                      "expected a whole image; save the picture as PNG",
                                       kind, stbi_failure_reason()));
     Image image = sized_image(path, width, height, channels);
     std::copy_n(pixels.get(), image.samples.size(), image.samples.begin());

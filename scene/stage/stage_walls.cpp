@@ -217,13 +217,13 @@ std::optional<std::string> Builder::picture(const WorldProperty& bitmap) {
     }
     if (options_.lenient) {
         note(bitmap.where,
-             fmt::format("bitmap \"{}\" is missing, so its walls are left out; tried {}", name,
-                         found.places()));
+             fmt::format("bitmap \"{}\" is missing, so its walls are left out; tried the paths {}",
+                         name, found.places()));
         return std::nullopt;
     }
     throw InputError(bitmap.where,
-                     fmt::format("bitmap: no file \"{}\"; tried {}; give the file's folder with "
-                                 "--world-path, or another file with --bitmap {}=NEW",
+                     fmt::format("bitmap: no file \"{}\"; tried the paths {}; give the file's "
+                                 "folder with --world-path, or another file with --bitmap {}=NEW",
                                  name, found.places(), last));
 }
 

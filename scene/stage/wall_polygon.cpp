@@ -54,8 +54,8 @@ WallPolygon outline(const Properties& properties, const std::string& prefix,
                     const Location& where) {
     const auto points = properties.find(prefix + "points");
     if (points == properties.end()) {
-        throw InputError(where, fmt::format("{0}points is missing; expected the number of points; "
-                                            "write {0}points 4",
+        throw InputError(where, fmt::format("the key \"{0}points\" is missing; expected the number "
+                                            "of points; write {0}points 4",
                                             prefix));
     }
     WallPolygon polygon{.points = {}, .where = points->second->where};

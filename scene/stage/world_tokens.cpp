@@ -65,8 +65,8 @@ std::string Loader::text_of(const std::string& path, const Location& where) {
     }
     std::ifstream file(path, std::ios::binary);
     if (!file) {
-        throw InputError(where,
-                         "cannot be opened; expected a readable file; check its permissions");
+        throw InputError(
+            where, "cannot be opened; expected a readable file; check the permissions of the file");
     }
     std::error_code ignored;
     const std::uintmax_t size = std::filesystem::file_size(path, ignored);
@@ -94,9 +94,10 @@ void Loader::enter(const std::string& path, const Location& where) {
                                      path));
     }
     if (open_.size() > deepest_include) {
-        throw InputError(where, fmt::format("includes are nested more than {} deep; expected fewer "
-                                            "levels; include this file directly in the world file",
-                                            deepest_include));
+        throw InputError(where,
+                         fmt::format("includes are nested more than {} levels deep; expected fewer "
+                                     "levels; include this file directly in the world file",
+                                     deepest_include));
     }
     if (out_.files.size() >= most_files) {
         throw InputError(where,
@@ -158,13 +159,13 @@ void Loader::include(WorldScanner& scanner, const WorldToken& keyword) {
     const Location where = out_.where(name);
     if (found.path) return add_file(*found.path, where);
     if (!lenient_) {
-        throw InputError(where, fmt::format("no file \"{}\" to include; tried {}; give the "
-                                            "file's folder with --world-path or in STAGEPATH",
+        throw InputError(where, fmt::format("no file \"{}\" to include; tried the paths {}; give "
+                                            "the file's folder with --world-path or in STAGEPATH",
                                             name.text, found.places()));
     }
-    out_.notices.push_back(
-        fmt::format("{}:{}: the include file \"{}\" is missing, so it is left out; tried {}",
-                    where.source, keyword.line, name.text, found.places()));
+    out_.notices.push_back(fmt::format(
+        "{}:{}: the include file \"{}\" is missing, so it is left out; tried the paths {}",
+        where.source, keyword.line, name.text, found.places()));
 }
 
 }  // namespace

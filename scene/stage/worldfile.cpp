@@ -104,8 +104,8 @@ void Parser::body(std::size_t& at, WorldEntity& into, int depth, const WorldToke
                  "found \")\" without a \"(\"; expected a key, a model or the end of the file; "
                  "remove the \")\"");
         } else if (next.kind == Kind::file_end) {
-            fail(next, fmt::format("found the end of the file; expected the \")\" of the \"(\" at "
-                                   "{}; add the \")\"",
+            fail(next, fmt::format("found the end of the file; expected the \")\" that closes the "
+                                   "\"(\" at {}; add the \")\"",
                                    where(*opened).text()));
         } else {
             fail(next, fmt::format("found {}; expected a key or the type of a model; write \"name "
@@ -129,8 +129,8 @@ void Parser::statement(std::size_t& at, const WorldToken& name, WorldEntity& int
 
 void Parser::reject_value(const WorldToken& name, const WorldToken& found) const {
     const std::string expected = fmt::format(
-        "expected the value of \"{}\" on its line: a number, a text in quotes or [values]; or a "
-        "\"(\"",
+        "expected the value of \"{}\" on the same line: a number, a text in quotes or [values]; or "
+        "a \"(\" that begins a block",
         name.text);
     const std::string suggestion =
         found.kind == Kind::word ? fmt::format("did you mean \"{}\", in quotes?", found.text)
@@ -162,8 +162,8 @@ void Parser::tuple(std::size_t& at, WorldProperty& into) {
         } else if (value.kind == Kind::text) {
             into.values.emplace_back(value.text);
         } else {
-            fail(value, fmt::format("found {} inside the [ ] of \"{}\"; expected numbers or texts "
-                                    "and the \"]\"; {}",
+            fail(value, fmt::format("found {} inside the [ ] of \"{}\"; expected numbers or texts, "
+                                    "and then the \"]\"; {}",
                                     value.description(), into.name,
                                     value.kind == Kind::word && value.line == into.where.line
                                         ? "put a text in quotes"
@@ -204,7 +204,9 @@ void Parser::define(std::size_t& at, int depth) {
     body(at, ignored, depth + 1, &open);
     checking_ = was_checking;
     if (checking_)
-        fail(name, "found a define inside a define; move the inner define out of the outer define");
+        fail(name,
+             "found a \"define\" inside a \"define\"; move the inner \"define\" out of the outer "
+             "\"define\"");
     const auto [first, is_new] = macros_.try_emplace(name.text, macro);
     if (!is_new && first->second.where.text() != macro.where.text()) {
         note(macro.where, fmt::format("macro \"{}\" is defined a second time; the first "

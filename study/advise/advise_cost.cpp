@@ -79,14 +79,14 @@ CandidateCost cost_of(double run_s, double transmissions, const MediumCosts& cos
 
 std::string percent_text(double share) { return fmt::format("{:.2g} %", 100 * share); }
 
-/// "its mean delivery_ratio is within 0.02 of that of rays + sinr"
+/// "its mean delivery_ratio differs by less than 0.02 from the mean of rays + sinr"
 std::string nearness_text(const Advice& advice, const std::string& reference) {
     if (advice.rule.criterion == ErrorCriterion::mean) {
-        return fmt::format("its mean {} is within {:.4g} of that of {}", advice.metric,
-                           advice.rule.tolerance, reference);
+        return fmt::format("its mean {} differs by less than {:.4g} from the mean of {}",
+                           advice.metric, advice.rule.tolerance, reference);
     }
     return fmt::format(
-        "in a single run, its {} differs from that of {} by {:.4g} or less on average",
+        "its {} in a single run differs from that in a run with {} by at most {:.4g} on average",
         advice.metric, reference, advice.rule.tolerance);
 }
 
@@ -106,7 +106,7 @@ std::string open_text(const JudgedCandidate& each) {
         ways.push_back(fmt::format("about {} replications would decide", *needed));
     }
     if (const auto tolerance = each.decision.deciding_tolerance()) {
-        ways.push_back(fmt::format("sufficient with --tolerance {:.2g}", *tolerance));
+        ways.push_back(fmt::format("would be sufficient with --tolerance {:.2g}", *tolerance));
     }
     return ways.empty() ? each.name : fmt::format("{} ({})", each.name, fmt::join(ways, "; "));
 }
@@ -159,8 +159,8 @@ void add_costs(Advice& advice, Study& study, const std::function<bool()>& stoppe
         advice.cost_text = fmt::format(
             "CPU/transmission: CPU time to find the receivers of one transmission (median of {} "
             "measurements of {:.2g} s over the same {} frames)\nCPU/run: CPU time of a run without "
-            "path planning (median of {} replications)\nof run: share of CPU/run that is spent to "
-            "find receivers",
+            "path planning (median of {} replications)\nof run: the share of CPU/run that is spent "
+            "to find receivers",
             costs.turns, costs.turn_s, costs.frames, runs.replications);
     }
 }

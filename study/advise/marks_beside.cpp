@@ -31,7 +31,7 @@ void add_marks(Chart& chart, const std::string& path, const MarkColumns& columns
         const auto found = std::find(curves.begin(), curves.end(), name);
         if (found == curves.end()) {
             table.fail(row, columns.by,
-                       fmt::format("one of the curves {}", fmt::join(curves, ", ")));
+                       fmt::format("the name of one of the curves {}", fmt::join(curves, ", ")));
         }
         const auto x = number_in(table, row, columns.x, columns.unit);
         auto point = point_of(table, row, columns.y);

@@ -64,8 +64,8 @@ std::string methods_text(const std::vector<Answer>& list) {
     }
     const auto skewed = std::ranges::count_if(list, &Answer::skewed);
     if (skewed > 0)
-        text += fmt::format(" (the values of {} of {} means are too skewed for t)", skewed,
-                            list.size());
+        text += fmt::format(" (the values of {} of {} means are too skewed for Student's t)",
+                            skewed, list.size());
     return text;
 }
 
@@ -302,13 +302,13 @@ Chart protocol_chart(const Store& store, const std::string& held) {
             without.push_back(std::move(mark.label));
         }
     }
-    chart.note = fmt::format("means of {}, with {} intervals: for delivery ratios{}",
+    chart.note = fmt::format("means of {}, with {} intervals; intervals of delivery ratios{}",
                              replications_text(deliveries), percent(confidence_of(store)),
                              methods_text(deliveries));
     const std::string of_airtimes = methods_text(airtimes);
-    if (!of_airtimes.empty()) chart.note += ", for airtimes" + of_airtimes;
+    if (!of_airtimes.empty()) chart.note += ", intervals of airtimes" + of_airtimes;
     if (!without.empty()) {
-        chart.note += fmt::format("; without deliveries: {}", fmt::join(without, ", "));
+        chart.note += fmt::format("; nothing delivered by: {}", fmt::join(without, ", "));
     }
     for (const std::string& text : {held, coverage_text(all)}) {
         if (!text.empty()) chart.note += "; " + text;

@@ -44,9 +44,9 @@ Chart table_chart(const std::string& path, const ChartQuestion& q) {
         throw std::invalid_argument(
             kind == ChartKind::lines
                 ? fmt::format("--kind: lines need numbers along the x axis, but the column {} "
-                              "contains words; expected bars, or a column of numbers for -x",
+                              "contains words; expected --kind bars, or a column of numbers for -x",
                               q.x)
-                : "--kind: a table can only be drawn as lines or bars");
+                : "--kind: a table can be drawn only with --kind lines or --kind bars");
     }
     Chart chart{.kind = kind,
                 .x_label = axis_label(q.x, numbers ? numbers->unit : ""),

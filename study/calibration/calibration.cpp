@@ -225,7 +225,7 @@ void refuse_absurd(std::vector<CalibratedModel>& models, Dbm given_power) {
             if (p.key == "power" && std::abs(p.value - given_power.value) > most_db) {
                 model.refusal = fmt::format(
                     "the fitted power of {} dBm differs by more than {} dB from the given power of "
-                    "{:.4g} dBm",
+                    "{:.4g} dBm; check the power in [radio]",
                     told_apart(
                         p.value,
                         given_power.value + (p.value > given_power.value ? most_db : -most_db), 0),
@@ -242,12 +242,13 @@ void refuse_absurd(std::vector<CalibratedModel>& models, Dbm given_power) {
         if (!model.refusal.empty()) continue;
         if (error > much * friis && error > friis + more_db) {
             model.refusal = fmt::format(
-                "its error of {:.1f} dB is far above {:.1f} dB, the error of friis with a fitted "
-                "constant",
+                "the error of this model, {:.1f} dB, is far above {:.1f} dB, the error of friis "
+                "with a fitted constant",
                 error, friis);
         } else if (error > nothing_db) {
             model.refusal = fmt::format(
-                "its error of {} dB is more than {} dB: the model does not describe the levels",
+                "the error of this model, {} dB, is more than {} dB: the model does not describe "
+                "the levels",
                 told_apart(error, nothing_db, 1), nothing_db);
         }
     }
@@ -344,7 +345,7 @@ Calibration calibrate_to_levels(const Scenario& scenario, const std::string& pat
     if (!any_seen)
         throw InputError({path, 0, 0},
                          "found no level above the floor (--floor), below which nothing is "
-                         "received; expected at least one such level");
+                         "received; expected at least one level above the floor");
     if (gains == Gains::by_transmitter) check_transmitters(out.known, path);
     out.loss_error = loss_error_at_budget(out.known, scenario);
     out.models = calibrate(out.known, scenario, "", Propagation::anything, gains);

@@ -82,7 +82,7 @@ class LevelsReader {
                             needed,
                             receivers == Receivers::known
                                 ? ""
-                                : " (or the column place instead of the last two)"));
+                                : " (or the column \"place\" instead of to_x_m and to_y_m)"));
         }
     }
 

@@ -29,8 +29,8 @@ Db sigma_of(const Scenario& scenario, const LocateQuestion& question) {
     throw InputError(
         scenario.propagation_where.source.empty() ? Location{scenario.file}
                                                   : scenario.propagation_where,
-        "the scenario has no shadowing, from which the error of a level would follow; expected "
-        "--sigma, the standard deviation of the levels, such as --sigma \"4 dB\"");
+        "the scenario has no shadowing, so the error of the levels is unknown; expected --sigma, "
+        "the standard deviation of the levels, such as --sigma \"4 dB\"");
 }
 
 /// Box of all places: that of the map, or that of the anchors.

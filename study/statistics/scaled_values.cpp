@@ -22,8 +22,8 @@ void check(std::span<const double> values, const Bounds& bounds, double confiden
             fmt::format("{}: expected a lower and an upper bound of the values", owner));
     }
     if (bounds.hold(values)) return;
-    throw std::invalid_argument(
-        fmt::format("{}: a value is not from {} to {}", owner, *bounds.low, *bounds.high));
+    throw std::invalid_argument(fmt::format("{}: a value is outside the range from {} to {}", owner,
+                                            *bounds.low, *bounds.high));
 }
 
 }  // namespace

@@ -285,7 +285,7 @@ ScenePanels panels_of(const ValidationScene& scene, const Truth& truth, std::siz
         delivery.unknowable = run_errors(runs.back(), runs.front()).mean;
         links.unknowable = 100 * wrong_by_its_error(calibration, *truth.own_error);
         delivery.unknowable_label = links.unknowable_label =
-            fmt::format("error of {} if its losses are wrong by {:.1f} dB, as in a measured {}",
+            fmt::format("error of {} if losses are {:.1f} dB wrong, as measured in one {}",
                         truth.model.label, truth.own_error->value, truth.building);
     }
     for (std::size_t i = 0; i < models.size(); ++i) {

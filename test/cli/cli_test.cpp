@@ -67,7 +67,8 @@ const std::vector<std::string> result_files = {"scenario.toml", "summary.json", 
 
 }  // namespace
 
-TEST_CASE("command line: the error for an option before its command says where to write it") {
+TEST_CASE(
+    "command line: if an option is before its command, the error says where to write the option") {
     const TemporaryFolder folder;
     for (const char* option : {"-q", "--quiet", "--json"}) {
         CAPTURE(option);
@@ -146,8 +147,7 @@ TEST_CASE("run: runs with different values of --set have folders with different 
 }
 
 TEST_CASE(
-    "run: runs of the printed scenario and of scenario.toml in the folder have the same "
-    "fingerprint") {
+    "run: the printed scenario repeats the run, and so does scenario.toml of the results folder") {
     const TemporaryFolder folder;
     const std::string file = folder.write("s.toml", relay), out = folder.path("out");
     const auto fingerprint = [&](const std::string& scenario) {
@@ -218,7 +218,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("the delivery ratio can be counted from the columns of a trace") {
+TEST_CASE("the delivery ratio can be computed from the columns of an ns-2 trace") {
     const TemporaryFolder folder;
     const Json run = json_of(folder, {"run", folder.write("s.toml", relay), "--out",
                                       folder.path("out"), "--set", "trace.ns2=old"});
@@ -263,7 +263,8 @@ TEST_CASE("loss --wall: half a metre of wall at 2 dB per centimetre attenuates b
     CHECK(command(folder, {"loss", "friis", "--distance", "1", "--wall", "2"}).exit == 2);
 }
 
-TEST_CASE("loss --heights: for antennas 1.5 m high, the loss equals the test vectors (two_ray)") {
+TEST_CASE(
+    "loss --heights: for antennas 1.5 m high, the loss by `two_ray` equals the test vectors") {
     const TemporaryFolder folder;
     const auto loss = [&](const std::string& heights) {
         return json_of(
@@ -277,7 +278,7 @@ TEST_CASE("loss --heights: for antennas 1.5 m high, the loss equals the test vec
     CHECK(command(folder, {"loss", "friis", "--distance", "1", "--heights", "1,2,3"}).exit == 2);
 }
 
-TEST_CASE("loss: several models are printed in a column each, and drawn as a curve each") {
+TEST_CASE("loss: each of several models has a column in the table and a curve in the drawing") {
     const TemporaryFolder folder;
     const std::vector<std::string> models = {"loss", "friis", "log_distance", "exponent=4", "disc"};
     const auto with = [&](std::vector<std::string> words, std::size_t number) {
@@ -407,7 +408,7 @@ radio = { sensitivity = "0 dBm" }
           "the received power is below the receiver's sensitivity");
 }
 
-TEST_CASE("models --json lists every model, shadowing and fading with their parameters") {
+TEST_CASE("models --json lists all models, also of shadowing and fading, with their parameters") {
     const TemporaryFolder folder;
     const Json listed = json_of(folder, {"models"});
     Json models = listed["models"];
@@ -441,8 +442,7 @@ TEST_CASE("version and --version print the version") {
     CHECK(command(folder, {"version"}).out.starts_with("rovernet " + version + "\n"));
 }
 
-TEST_CASE(
-    "version lists the models of each table of a scenario, and a scenario can choose any of them") {
+TEST_CASE("the command `version` lists the models that each table of a scenario may name") {
     const TemporaryFolder folder;
     const std::string file = folder.write("s.toml", relay);
     const Json models = json_of(folder, {"version"})["models"];
@@ -543,9 +543,7 @@ ns2 = "new"
     }
 }
 
-TEST_CASE(
-    "run: with range 0 no message arrives; a negative range is refused, and the error has its line "
-    "in the file") {
+TEST_CASE("run: with range 0 no message arrives; a negative range is refused, with file and line") {
     const TemporaryFolder folder;
     const std::string file = folder.write("s.toml", relay), out = folder.path("out");
     const Json run = json_of(folder, {"run", file, "--out", out, "--set", "propagation.range=0 m"});

@@ -59,7 +59,8 @@ TEST_CASE("input: paths in a scenario from standard input are relative to the cu
     CHECK(contains(ended.out, "n0"));
 }
 
-TEST_CASE("input: an error in a scenario from standard input has its line; a sweep needs --store") {
+TEST_CASE(
+    "input: for a scenario from standard input, errors name the line, and a sweep needs --store") {
     const TemporaryFolder folder;
     const Ended wrong = with_input(folder, "[radio]\npower = 15\n", "run -");
     CHECK(wrong.exit == 3);

@@ -122,8 +122,7 @@ TEST_CASE("store: a sweep on any file system gives the same results, and leaves 
     }
 }
 
-TEST_CASE(
-    "store: on any file system one sweep writes a store; a second one is refused with the reason") {
+TEST_CASE("store: on any file system, while one sweep writes a store, a second sweep is refused") {
     for (const Kind& kind : kinds) {
         CAPTURE(kind.lacks);
         const Place place;
@@ -175,7 +174,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "store: runs of a killed sweep are read, and the sweep is completed, on any file system") {
+    "store: on any file system, a killed sweep's runs can be read, and the sweep can be "
+    "completed") {
     for (const Kind& kind : kinds) {
         CAPTURE(kind.lacks);
         const Place place;

@@ -63,7 +63,8 @@ const std::string disc = "model = \"disc\"\nrange = \"100 m\"\n";
 }  // namespace
 
 TEST_CASE(
-    "disc: a link report has distance and range; a link whose length equals the range is up") {
+    "model `disc`: a link report has distance and range; a link exactly as long as the range is "
+    "up") {
     const Scenario scenario = line(disc);
     const LinkReport far = report_link(scenario, "A", "B", start_of_run);
     CHECK_FALSE(far.up);
@@ -79,7 +80,7 @@ TEST_CASE(
     CHECK(shadowed.why_down == far.why_down);
 }
 
-TEST_CASE("disc: the link table of a robot has distances and no levels") {
+TEST_CASE("model `disc`: the link table of a robot has distances and no levels") {
     const auto network = network_at(line(disc), start_of_run);
     std::size_t rows = 0;
     for_each_link_table(*network, "A", [&](const LinkTable& table) {
@@ -99,7 +100,8 @@ TEST_CASE("disc: the link table of a robot has distances and no levels") {
     });
 }
 
-TEST_CASE("disc: the reason for a missed message is the distance; a packet capture has no levels") {
+TEST_CASE(
+    "model `disc`: a message is missed because of the distance; a packet capture has no levels") {
     const TempFolder folder;
     run_scenario(line(disc), {.folder = folder / "run", .speed = {}});
     const std::string trace = folder / "run/trace.mcap";

@@ -125,7 +125,9 @@ TEST_CASE("many robots: a request about a robot that does not exist is refused")
     CHECK_THROWS_AS(net.on_receive({1}, [](const Message&) {}), std::out_of_range);
 }
 
-TEST_CASE("flood benchmark: counts of received and lost frames do not depend on recording") {
+TEST_CASE(
+    "flood benchmark: with and without recording, the same numbers of frames are received and "
+    "lost") {
     for (const std::size_t model :
          {ReceptionTable::place_of<Threshold>(), ReceptionTable::place_of<Collision>()}) {
         const ReceptionTable reception{.model = model};

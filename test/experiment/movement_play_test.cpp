@@ -81,7 +81,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("movement file: a [[robot]] with a count may describe robots that the file moves") {
+TEST_CASE("movement file: a [[robot]] table with `count` may describe robots that the file moves") {
     const TemporaryFolder folder;
     folder.write("m.movements", "0 0 0 10 20 0\n0 1 5 10 21 5\n");
     const Scenario s =

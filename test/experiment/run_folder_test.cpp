@@ -31,7 +31,7 @@ TEST_CASE("run folder: the path has the scenario's name, the seed, and the repli
     CHECK(folder({"scenario.seed=7", "scenario.name=rescue"}) == "runs/rescue-s7");
 }
 
-TEST_CASE("run folder: the path lists settings that differ from the file") {
+TEST_CASE("run folder: the path lists settings that differ from the scenario file") {
     CHECK(folder({"radio.power=20 dBm"}) == "runs/rescue-s7-radio.power=20dBm");
     CHECK(folder({"routing.ttl=3", "radio.power=\"20 dBm\""}) ==
           "runs/rescue-s7-radio.power=20dBm-routing.ttl=3");

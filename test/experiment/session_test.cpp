@@ -135,7 +135,7 @@ TEST_CASE(
     CHECK_THROWS_WITH_AS(session.attach({NodeId{1}}),
                          "robot b is already driven by a different client", std::invalid_argument);
     CHECK_THROWS_WITH_AS(session.drive(first, {2}, {1}, {0}),
-                         "robot c is not attached to this client: attach it first",
+                         "robot c is not attached to this client: attach the robot first",
                          std::invalid_argument);
     session.drive(first, {1}, {1}, {0.5});
     session.step(start_of_run + 1s);
@@ -156,7 +156,7 @@ TEST_CASE("session: one client may use the radio of a robot while another client
     const ClientId radios = session.attach_radios({a, b, c}, "radios");
     session.drive(driver, b, {1}, {0});
     CHECK_THROWS_WITH_AS(session.drive(radios, b, {1}, {0}),
-                         "robot b is not attached to this client: attach it first",
+                         "robot b is not attached to this client: attach the robot first",
                          std::invalid_argument);
     CHECK_THROWS_AS(session.send(driver, a, {}, "of another"), std::invalid_argument);
     session.send(radios, c, std::nullopt, "hello");
@@ -324,7 +324,7 @@ TEST_CASE("session: listeners get every command, also the stop command made when
 }
 
 TEST_CASE(
-    "session: a driven robot has the commanded velocity, otherwise the velocity of its movement") {
+    "session: a robot has the commanded velocity while it is driven, else that of its movement") {
     Session session{scenario()};
     const ClientId client = session.attach({NodeId{1}});
     CHECK(session.driver({1}) == client);

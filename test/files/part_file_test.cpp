@@ -74,7 +74,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "part file: if two writers write one file at once, the last to complete determines its text") {
+    "part file: if two writers write a file simultaneously, the last to complete determines its "
+    "text") {
     const TemporaryFolder folder;
     PartFile first(folder.path("f")), second(folder.path("f"));
     first.write("first");
@@ -114,7 +115,7 @@ TEST_CASE("part file: a full disk is reported, and no partial file remains") {
     CHECK_THROWS_AS(file.give_name(), RunError);
 }
 
-TEST_CASE("part file: a path that cannot be written is reported at once") {
+TEST_CASE("part file: a path that cannot be written is reported immediately") {
     const TemporaryFolder folder;
     CHECK_THROWS_WITH_AS(
         PartFile(folder.path("no/f")),

@@ -46,7 +46,7 @@ std::string many_lines() {
 }  // namespace
 
 TEST_CASE(
-    "text source: a zstd file gives its text under any name, also when it is read a second time") {
+    "text source: a zstd file is recognised under any file name, and can be read a second time") {
     const TempFolder folder;
     for (const std::string& text : {many_lines(), std::string("x"), std::string()}) {
         write_file(folder / "text", packed_by_zstd(text));
@@ -89,7 +89,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "text source: for other compressed files, and files without text, the error names the kind") {
+    "text source: the error for an unsupported compressed file, or a file without text, names the "
+    "kind of file") {
     const TempFolder folder;
     const std::string tar = std::string("a.tr") + std::string(253, '\0') + "ustar  ";
     const std::vector<std::pair<std::string, std::string>> files = {

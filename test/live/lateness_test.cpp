@@ -117,13 +117,15 @@ TEST_CASE("lateness: while a client pauses the time, the run is not late") {
     CHECK(result.fault.empty());
 }
 
-TEST_CASE("lateness: a stop of the process counts as late only until a client pauses the run") {
+TEST_CASE(
+    "lateness: a stop of the process makes the run late only up to the time at which a client "
+    "pauses it") {
     const LiveResult result = run({.limit = start_of_run + 10min});
     CHECK(result.lateness->most > 9min);
     CHECK(result.lateness->most < 11min);
 }
 
-TEST_CASE("lateness: a run without a speed is never late") {
+TEST_CASE("lateness: a run without a set speed is never late") {
     const LiveResult result = run({.speed = std::nullopt});
     CHECK_FALSE(result.lateness);
     CHECK(result.fault.empty());
@@ -135,7 +137,7 @@ TEST_CASE("lateness: messages that arrive while the run writes output slowly cou
     CHECK_FALSE(result.fault.empty());
 }
 
-TEST_CASE("lateness: polls that are not late do not count in the share of late delays") {
+TEST_CASE("lateness: a poll counts in the share of late delays only if it is late") {
     Lateness lateness;
     lateness.add_look(999us);
     CHECK(lateness.most == 999us);
@@ -146,7 +148,7 @@ TEST_CASE("lateness: polls that are not late do not count in the share of late d
     CHECK(lateness.share() == 0.5);
 }
 
-TEST_CASE("live: a paced run that was stopped prints its lateness") {
+TEST_CASE("live: if the process of a paced run was stopped, the run's summary has its lateness") {
     for (const std::string option : {"--player", "--rosbridge"}) {
         CAPTURE(option);
         const Live live({option, "127.0.0.1:0"}, long_live_row());

@@ -100,7 +100,7 @@ TEST_CASE(
     CHECK(again.out == "identical: 28 inputs, fingerprint " + fingerprint + "\n");
 }
 
-TEST_CASE("live: a changed log is refused, and an incomplete log is replayed up to its end") {
+TEST_CASE("live: a changed input log is refused, and an incomplete log is replayed up to its end") {
     const Live live({"--controller", "PROGRAM"}, live_row, python);
     REQUIRE(live.wait().exit == 0);
     const std::string path = live.folder.path("out/inputs.jsonl"), log = content(path);
@@ -163,7 +163,8 @@ TEST_CASE(
     }
     const Ended without = lost.wait();
     CHECK(without.exit == 1);
-    CHECK(without.err.find("controller A has disconnected at 0 s without a message of type bye") !=
+    CHECK(without.err.find(
+              "controller A has disconnected at 0 s without a message of type \"bye\"") !=
           std::string::npos);
     CHECK(lost.replay().exit == 0);
 
@@ -177,8 +178,8 @@ TEST_CASE(
         const Live silent({"--controller", program, "--patience", "50ms"});
         const Ended ended = silent.wait();
         CHECK(ended.exit == 1);
-        CHECK(ended.err.find("no hello within 0.05 s from controller \"" + program + "\"") !=
-              std::string::npos);
+        CHECK(ended.err.find("no message of type \"hello\" within 0.05 s from controller \"" +
+                             program + "\"") != std::string::npos);
     }
 
     const Live failing({"--controller", "exit 7"});
@@ -212,7 +213,7 @@ TEST_CASE("live: only this machine can connect, and an address in use is reporte
         CHECK(ended.exit == 2);
         return ended.err;
     };
-    CHECK(refused("0.0.0.0:0").find("expected an address of this machine alone") !=
+    CHECK(refused("0.0.0.0:0").find("expected an address that only this machine can reach") !=
           std::string::npos);
     for (const char* address : {"192.168.1.1:7007", "127.0.0.1", "127.0.0.1:x", "127.0.0.1:65536",
                                 "[::]:7007", "example.org:1", ":7007"}) {
@@ -343,7 +344,8 @@ TEST_CASE("live: Player clients of a paced run are served until Ctrl-C or the sc
     CHECK(short_run.replay().exit == 0);
 }
 
-TEST_CASE("live: ROS and Player clients are served together until Ctrl-C; a page needs the token") {
+TEST_CASE(
+    "live: ROS and Player clients are served together until Ctrl-C; a web page needs the token") {
     const Live live({"--rosbridge", "127.0.0.1:0", "--player", "127.0.0.1:0"}, long_live_row());
     LineClient player(live.port());
     open_position(player);
@@ -380,7 +382,7 @@ TEST_CASE("live: ROS and Player clients are served together until Ctrl-C; a page
     };
     CHECK(error({"--listen-json", "127.0.0.1:0", "--speed", "2"})
               .find("--speed needs --player, --rosbridge or --view") != std::string::npos);
-    CHECK(error({"--rosbridge", "0.0.0.0:9090"}).find("an address of this machine") !=
+    CHECK(error({"--rosbridge", "0.0.0.0:9090"}).find("an address that only this machine") !=
           std::string::npos);
 }
 

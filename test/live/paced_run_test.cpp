@@ -250,7 +250,8 @@ TEST_CASE("paced run: a requested stop ends a run with complete results") {
     CHECK(client.line().empty());
 }
 
-TEST_CASE("paced run: a run without a speed is as fast as its clients allow, and can be repeated") {
+TEST_CASE(
+    "paced run: a run without a set speed is as fast as its clients allow, and can be repeated") {
     std::string fingerprints[2];
     for (std::string& each : fingerprints) {
         Paced<Patient> paced(std::nullopt, three_in_a_row());
@@ -303,7 +304,9 @@ TEST_CASE("paced run: a client that does not read is disconnected, and others ar
     CHECK(lines < 15);
 }
 
-TEST_CASE("paced run: a late reader gets the number of lost messages, and is disconnected") {
+TEST_CASE(
+    "paced run: a client that reads too slowly gets the number of lost messages and is "
+    "disconnected") {
     Paced<Patient> paced(std::nullopt, three_in_a_row(), std::size_t{1} << 20U);
     LineClient late(paced.port()), reader(paced.port());
     reader.line();  // the port
@@ -337,7 +340,8 @@ TEST_CASE("paced run: input of a client is read at a limited rate") {
     paced.end();
 }
 
-TEST_CASE("paced run: a protocol server may disconnect a client, and may read bytes, not lines") {
+TEST_CASE(
+    "paced run: a protocol server may disconnect a client, and may read bytes instead of lines") {
     Paced<Parrot> paced(1, three_in_a_row());
     LineClient client(paced.port());
     client.line();
@@ -355,8 +359,8 @@ TEST_CASE("paced run: a protocol server may disconnect a client, and may read by
 }
 
 TEST_CASE(
-    "input rate: a client may send one second's input at once, then 5,000 messages or 16 MiB per "
-    "second") {
+    "input rate: a client may send a burst of one second's input, then 5,000 messages or 16 MiB "
+    "per second") {
     const InputRate::Clock::time_point start{1h};
     InputRate rate;
     rate.add(5'000, 0, start);

@@ -71,7 +71,8 @@ const int stop_signals[] = {SIGINT, SIGTERM, SIGHUP};
 
 }  // namespace
 
-TEST_CASE("stopping: each signal ends the set-up of a network at once, and leaves nothing behind") {
+TEST_CASE(
+    "stopping: each signal immediately ends the set-up of a network, and leaves nothing behind") {
     for (const int signal : stop_signals) {
         CAPTURE(signal);
         const Live live({"--unix", "SOCKET", "--controller", "PROGRAM PIDFILE"}, long_to_set_up,
@@ -86,7 +87,8 @@ TEST_CASE("stopping: each signal ends the set-up of a network at once, and leave
     }
 }
 
-TEST_CASE("stopping: a signal ends emulate and paced runs at once during their set-up") {
+TEST_CASE(
+    "stopping: a signal during the set-up of an emulation or a paced run ends it immediately") {
     const TemporaryFolder folder;
     const std::string file = folder.write("s.toml", long_to_set_up);
     const std::vector<std::vector<std::string>> commands = {

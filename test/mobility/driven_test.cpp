@@ -57,7 +57,8 @@ double turn_between(double a, double b) { return std::abs(std::remainder(a - b, 
 
 }  // namespace
 
-TEST_CASE("driven: the position is at most a millimetre off the arc, and the heading is exact") {
+TEST_CASE(
+    "driven: the position is at most a millimetre off the commanded arc; the heading is exact") {
     for (const double v : {1.0, 0.3, -2.0}) {
         for (const double w : {1.0, -0.1, 3.0, 0.0}) {
             for (const bool turns_in_place : {false, true}) {

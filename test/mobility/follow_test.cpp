@@ -113,7 +113,7 @@ TEST_CASE("follow: if there is no path to the leader, the follower stands and tr
 }
 
 TEST_CASE(
-    "follow: a follower stays at its own height, and a robot that is to follow itself stands") {
+    "follow: a follower stays at its own height, and a robot told to follow itself stands still") {
     Network net;
     net.add({.name = "A", .at = {10, 0, 7}});
     net.add({.name = "B", .at = {0, 0, 1}, .move = Follow{}});

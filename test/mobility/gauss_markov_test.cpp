@@ -67,7 +67,7 @@ double standard_error(double sigma, double a, double n) {
 }  // namespace
 
 TEST_CASE(
-    "gauss_markov: speed and direction are normally distributed; the correlation is memory^lag") {
+    "gauss_markov: speed and direction are normally distributed, with autocorrelation memory^lag") {
     constexpr int legs = 40'000;
     for (const double a : {0.0, 0.5, 0.9}) {
         CAPTURE(a);

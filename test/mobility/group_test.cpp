@@ -28,7 +28,9 @@ constexpr double tolerance = 1e-9;  // [m]
 
 }  // namespace
 
-TEST_CASE("group: at the end of each interval, members are uniformly distributed in a disc") {
+TEST_CASE(
+    "group: at the end of each interval, members are uniformly distributed in a disc near the "
+    "leader") {
     Network net;
     net.add({.name = "A", .at = {50, 0}, .move = ToGoal{.to = {1e4, 5e3}, .speed = {3}}});
     for (int i = 0; i < 20; ++i) {

@@ -183,7 +183,9 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("liveness: follow_wall and wander make at most 11 straight legs a second, at any range") {
+TEST_CASE(
+    "liveness: follow_wall and wander make at most 11 straight legs a second, at any sensor "
+    "range") {
     const Scene scene(rooms(0.5, 0.0));
     Planners planners(scene);
     test::Draw draw(11);

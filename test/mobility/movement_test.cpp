@@ -66,7 +66,7 @@ TEST_CASE("movement: after a copy is made, the original continues without any ef
 }
 
 TEST_CASE(
-    "movement: a motion that would end after the largest time of the clock has the given speed") {
+    "movement: a motion keeps the given speed, even if it would end after the largest clock time") {
     const MetersPerSecond slow{0.1};
     for (const double metres : {1e7, 1e9}) {  // 3 and 317 years
         CAPTURE(metres);

@@ -65,7 +65,7 @@ TEST_CASE("random_direction: the mean speed does not change with time") {
     }
 }
 
-TEST_CASE("random_direction: with border_turn uniform, robots gather along the borders") {
+TEST_CASE("random_direction: with `border_turn` = `uniform`, robots gather along the borders") {
     const RandomDirection model{
         .area = hall, .min_speed = {0.5}, .max_speed = {5}, .border_turn = BorderTurn::uniform};
     CHECK(Crowd(model, 300s).places.uniform_chi_square_sigmas() > 20);

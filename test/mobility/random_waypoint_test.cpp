@@ -378,7 +378,7 @@ TEST_CASE("random_waypoint: invalid parameters are refused") {
     };
     const auto area = box(1, 1);
     CHECK(refused({}, "the key \"area\" must be given, because the scene is an open field"));
-    CHECK(refused({.area = {{0, 0}}}, "area must be two corners"));
+    CHECK(refused({.area = {{0, 0}}}, "\"area\" must be two corners"));
     CHECK(refused({.area = {{0, 0}, {0, 5}}}, "right of and above"));
     CHECK(refused({.area = {{0, 0}, {-1, 5}}}, "right of and above"));
     CHECK(refused({.area = {{0, 0}, {std::nan(""), 5}}}, "right of and above"));

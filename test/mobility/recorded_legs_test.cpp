@@ -27,7 +27,7 @@ Leg leg(Duration start, Duration end, Vec3 from, Vec3 velocity) {
 }  // namespace
 
 TEST_CASE(
-    "recorded legs: a robot follows its legs (pieces of movement) and rests, until the last ends") {
+    "recorded legs: a robot moves along each leg (piece of movement), and rests between two legs") {
     const Scene scene;
     Planners planners(scene);
     LoneMover robot(planners);
@@ -43,7 +43,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "recorded legs: a movement that was replaced before its end is cut where the next one starts") {
+    "recorded legs: a leg that was replaced before its end is cut where the next leg starts") {
     const Scene scene;
     Planners planners(scene);
     LoneMover robot(planners);

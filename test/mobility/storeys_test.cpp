@@ -146,7 +146,7 @@ TEST_CASE("storeys: the range finder of a movement model sees the walls of the r
     CHECK(near(ahead({9, 1, 3}), 1));
 }
 
-TEST_CASE("storeys: robots with random movements stay on their storey and outside walls") {
+TEST_CASE("storeys: robots with random movements stay on their storey and enter no walls") {
     const auto scene = building();
     Planners planners(*scene);
     Wander wander{};

@@ -301,7 +301,8 @@ TEST_CASE("csma: receivers that forward at the same time collide; jitter prevent
 }
 
 TEST_CASE(
-    "csma: saturated broadcasts need no router, and have the theoretical throughput over one hop") {
+    "csma: saturated broadcasts need no routing protocol, and have the theoretical throughput over "
+    "one hop") {
     const BroadcastCell cell;
     for (const int n : {2, 10}) {
         Room room(n, cell.csma(), {.rate = cell.rate});

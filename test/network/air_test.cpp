@@ -281,7 +281,8 @@ Propagation listed<Disc>() {
 
 }  // namespace
 
-TEST_CASE("air: interference agrees with a check of all pairs as robots move, jump, switch off") {
+TEST_CASE(
+    "air: interference agrees with a check of all pairs as robots move, jump or are switched off") {
     for (const Propagation& model :
          {Propagation{LogDistance{.exponent = 2, .sigma = Db{0}}},
           Propagation{LogDistance{.exponent = 2, .sigma = Db{4}}}, Propagation{Slope{}}}) {
@@ -367,7 +368,7 @@ TEST_CASE("air: a frame from far away that has ended at its sender interferes wh
 }
 
 TEST_CASE(
-    "air: with the reception model collision, an ignored frame affects no later frame, as in "
+    "air: with the reception model `collision`, an ignored frame affects no later frame, as in "
     "ns-2") {
     // ns-2.35: a strong frame, a weak one under it that lasts longer, and one while that is on air.
     for (const bool strong : {true, false}) {
@@ -413,7 +414,8 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("air: with sinr, a receiver locked onto a frame misses a stronger one") {
+TEST_CASE(
+    "air: with the reception model `sinr`, a receiver locked onto a frame misses a stronger one") {
     for (const bool decodable : {false, true}) {
         OpenField space{Sinr{}};
         const NodeId robot = space.add(0), strong = space.add(1);
@@ -427,7 +429,8 @@ TEST_CASE("air: with sinr, a receiver locked onto a frame misses a stronger one"
     }
 }
 
-TEST_CASE("air: with sinr, a frame that was missed does not lock the receiver") {
+TEST_CASE(
+    "air: with the reception model `sinr`, a frame that was missed does not lock the receiver") {
     OpenField space{Sinr{}};
     const NodeId robot = space.add(0), strong = space.add(1);
     const NodeId first = space.add(20), second = space.add(-40);
@@ -438,7 +441,8 @@ TEST_CASE("air: with sinr, a frame that was missed does not lock the receiver") 
     CHECK(fates_at(*space.log, robot) == std::vector{Fate::waiting, Fate::waiting, Fate::collided});
 }
 
-TEST_CASE("air: with sinr, bit errors are drawn anew for each frame of a sender") {
+TEST_CASE(
+    "air: with the reception model `sinr`, bit errors are drawn anew for each frame of a sender") {
     OpenField space{Sinr{}};
     const Radio radio{.power = {0}, .sensitivity = Dbm{-95}, .rate = BitRate{11e6}};
     const NodeId sender = space.net.add({.name = {}, .at = {0, 0}, .radio = radio});

@@ -273,7 +273,8 @@ std::vector<bool> received(const std::vector<Sent>& frames, double step = level_
 }  // namespace
 
 TEST_CASE(
-    "collision scenes: during an ignored frame, only one of two overlapping frames is received") {
+    "collision scenes: during an ignored frame, at most one of two overlapping frames is "
+    "received") {
     // The first frame hides the second, which lasts longer. While the second is on air, the
     // receiver is free for the third, and then not free for the fourth.
     std::vector<Sent> frames = {{0, 0ms, 1ms}, {1, 500us, 10ms}, {2, 2ms, 3ms}, {3, 3ms, 3ms}};

@@ -96,7 +96,7 @@ void collide(Listener& l, std::uint32_t bytes) {
 
 }  // namespace
 
-TEST_CASE("eifs: a frame whose reception was begun and failed requires an EIFS after its end") {
+TEST_CASE("eifs: after a frame whose reception began but failed, an EIFS is required") {
     for (const auto& [rule, expected] : {std::pair{EifsRule::standard, eifs},
                                          {EifsRule::ns2, eifs + difs},
                                          {EifsRule::none, difs}}) {
@@ -109,8 +109,7 @@ TEST_CASE("eifs: a frame whose reception was begun and failed requires an EIFS a
 }
 
 TEST_CASE(
-    "eifs: a frame that began while the receiver was locked requires an EIFS only with the rule of "
-    "ns-2") {
+    "eifs: if a frame began while the receiver was locked, only the ns-2 rule requires an EIFS") {
     for (const auto& [rule, expected] : {std::pair{EifsRule::standard, difs},
                                          {EifsRule::ns2, eifs + difs},
                                          {EifsRule::none, difs}}) {
@@ -120,7 +119,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("eifs: an undetected preamble requires an EIFS only with the rule of ns-2") {
+TEST_CASE("eifs: after an undetected preamble, only the ns-2 rule requires an EIFS") {
     for (const auto& [rule, expected] : {std::pair{EifsRule::standard, difs},
                                          {EifsRule::ns2, eifs + difs},
                                          {EifsRule::none, difs}}) {
@@ -134,7 +133,7 @@ TEST_CASE("eifs: an undetected preamble requires an EIFS only with the rule of n
 }
 
 TEST_CASE(
-    "eifs: a frame that began while the station sent requires an EIFS only with the rule of ns-2") {
+    "eifs: if a frame began while the station was sending, only the ns-2 rule requires an EIFS") {
     for (const auto& [rule, expected] : {std::pair{EifsRule::standard, difs},
                                          {EifsRule::ns2, eifs + difs},
                                          {EifsRule::none, difs}}) {
@@ -148,8 +147,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "eifs: a frame abandoned to send an acknowledgement requires an EIFS only with the rule of "
-    "ns-2") {
+    "eifs: if a station abandons a frame to send an acknowledgement, only the ns-2 rule requires "
+    "an EIFS") {
     for (const auto& [rule, expected] : {std::pair{EifsRule::standard, difs},
                                          {EifsRule::ns2, eifs + difs},
                                          {EifsRule::none, difs}}) {
@@ -162,7 +161,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("eifs: a frame that ends while the station sends requires only a DIFS") {
+TEST_CASE("eifs: if a frame ends while the station is sending, only a DIFS is required") {
     for (const double x : {-200.0, -400.0}) {  // decodable, and sensed only
         for (const EifsRule rule : {EifsRule::standard, EifsRule::ns2}) {
             Listener l(rule, Sinr{}, 550);
@@ -175,7 +174,7 @@ TEST_CASE("eifs: a frame that ends while the station sends requires only a DIFS"
     }
 }
 
-TEST_CASE("eifs: a frame too weak to decode requires an EIFS only with the rule of ns-2") {
+TEST_CASE("eifs: after a frame too weak to decode, only the ns-2 rule requires an EIFS") {
     for (const auto& [rule, expected] : {std::pair{EifsRule::standard, difs},
                                          {EifsRule::ns2, eifs + difs},
                                          {EifsRule::none, difs}}) {

@@ -306,7 +306,7 @@ TEST_CASE(
     CHECK(network.take().size() == 2 * (1 + changes));
 }
 
-TEST_CASE("link watch: too many robots are refused") {
+TEST_CASE("link watch: a network with too many robots is refused") {
     const Scene field;
     Harness network{&field};
     const Propagation disc = Disc{.range = 10_m};

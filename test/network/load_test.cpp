@@ -299,7 +299,8 @@ TEST_CASE("load: with range 0, robots that pass through each other lose every li
     CHECK(net.events() < 20);
 }
 
-TEST_CASE("load: with the reception model threshold, simultaneous frames arrive in sending order") {
+TEST_CASE(
+    "load: with the reception model `threshold`, simultaneous frames arrive in sending order") {
     for (const std::uint32_t first : {0U, 1U}) {
         Watched world(disc(15));
         world.add({0, 20, 10, 10});

@@ -47,7 +47,7 @@ Robot surveyor() {
 
 }  // namespace
 
-TEST_CASE("motion: a turn in place takes the angle divided by the turn rate, and has a record") {
+TEST_CASE("motion: a turn in place lasts the angle divided by the turn rate, and is recorded") {
     Network net;
     const auto diary = std::make_shared<Diary>();
     net.add_sink(diary);

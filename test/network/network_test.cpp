@@ -222,7 +222,8 @@ TEST_CASE("network: a run in parts of any size gives the same result as one run"
     }
 }
 
-TEST_CASE("network: if its limit allows, advance() serves all receptions of a frame together") {
+TEST_CASE(
+    "network: if the time limit allows, advance() serves all receptions of a frame together") {
     const auto counts_in_steps = [](Duration step, Time limit) {
         Busy busy(5);
         const auto counts = std::make_shared<ReceptionCounts>();
@@ -600,7 +601,8 @@ TEST_CASE(
     CHECK(net.metrics().deliveries == 1);
 }
 
-TEST_CASE("network: sending without a routing protocol, and a second protocol, are refused") {
+TEST_CASE(
+    "network: sending without a routing protocol, and adding a second protocol, are refused") {
     Network net;
     net.add(robot_at(0));
     CHECK_THROWS_AS(net.send({0}, everyone, "F"), std::invalid_argument);

@@ -112,7 +112,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "order: a routing protocol gets each batch of receptions in order, as the last of them ends") {
+    "order: a routing protocol gets each batch of receptions in order, when the last one ends") {
     const auto always_in_order = std::make_shared<bool>(true);
     Playground({}, 1).run(WatchedFlood{.always_in_order = always_in_order});
     CHECK(*always_in_order);

@@ -38,13 +38,13 @@ MetricValues after_messages(int messages, std::optional<bool> reach) {
 }  // namespace
 
 TEST_CASE(
-    "reach: in a run with few messages, the metric reach is measured even without a request") {
+    "reach: in a run with few messages, the metric `reach` is measured even without a request") {
     const MetricValues values = after_messages(100, {});
     CHECK(values.reach_known);
     CHECK(values.reach == 1.0 / 19);
 }
 
-TEST_CASE("reach: in a run with many messages, the metric reach is measured only on request") {
+TEST_CASE("reach: in a run with many messages, the metric `reach` is measured only on request") {
     const MetricValues cheap = after_messages(2'000, {});
     CHECK_FALSE(cheap.reach_known);
     CHECK_FALSE(cheap.reach);

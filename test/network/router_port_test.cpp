@@ -183,7 +183,8 @@ TEST_CASE(
     CHECK(both[0] > both[1]);
 }
 
-TEST_CASE("router port: csma reports if a frame was acknowledged, sent, given up or never sent") {
+TEST_CASE(
+    "router port: csma reports whether a frame was acknowledged, sent, given up or never sent") {
     const Csma one_place{.queue = 1};
     SUBCASE("csma reports a frame that was acknowledged") {
         Row row(Csma{});
@@ -365,7 +366,7 @@ TEST_CASE("router port: if the protocol only floods, a unicast is sent directly,
     CHECK_THROWS_AS(row.net.send({0}, {9}, "x"), std::invalid_argument);
 }
 
-TEST_CASE("send: the call returns the message's uid; a robot that is off sends nothing") {
+TEST_CASE("send: send() returns the message's uid; a robot that is off sends nothing") {
     Row row;
     const auto first = row.net.send({0}, {1}, "a"), second = row.net.send({1}, {2}, "b");
     REQUIRE((first && second));

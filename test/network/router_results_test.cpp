@@ -203,7 +203,8 @@ std::string drops_of_collision(Protocol protocol) {
 }  // namespace
 
 TEST_CASE(
-    "results: a lost routed unicast has one drop reason, also if the protocol takes no results") {
+    "results: if a routed unicast is lost, it has one drop reason, also if the protocol ignores "
+    "results") {
     CHECK(drops_of_collision(Scripted{.script = std::make_shared<Script>()}) == "CBK2 ");
     CHECK(drops_of_collision(Deaf{}) == "COL2 ");
 }
@@ -298,7 +299,8 @@ TEST_CASE("take_queued: after a failed frame, all queued frames for its next hop
     }
 }
 
-TEST_CASE("take_queued: messages over one hop stay in the queue, and get their own attempts") {
+TEST_CASE(
+    "take_queued: one-hop messages stay in the queue, and each gets seven attempts of its own") {
     Row row(Csma{});
     row.net.switch_off({1});
     std::size_t taken = 0;
@@ -548,19 +550,19 @@ TEST_CASE("references: a debug build reports a message that is released too ofte
     SUBCASE("a message that the routing protocol released too often is reported") {
         Row row;
         row.script->send = [](LinkLayer& link, NodeId, MessageId m) { link.release(m); };
-        CHECK_THROWS_WITH(
-            row.net.send({0}, {1}, "x"),
-            "the routing protocol released message 0 (of an application), to which it "
-            "holds no reference");
+        CHECK_THROWS_WITH(row.net.send({0}, {1}, "x"),
+                          "the routing protocol released message 0 (of an application), to which "
+                          "this protocol holds no reference");
     }
     SUBCASE("a message that the routing protocol never released is reported") {
         Row row;
         row.script->send = [](LinkLayer& link, NodeId, MessageId m) { link.hold(m); };
         row.net.send({0}, {1}, "x");
         row.net.run_for(1s);
-        CHECK_THROWS_WITH(row.net.finish(),
-                          "the routing protocol still holds 1 reference(s) to message 0 (of an "
-                          "application), but its keeps() returns false for this message");
+        CHECK_THROWS_WITH(
+            row.net.finish(),
+            "the routing protocol still holds 1 reference(s) to message 0 (of an application), but "
+            "keeps() of this protocol returns false for this message");
     }
 }
 #endif

@@ -73,7 +73,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "end of the run: a broadcast that a robot has received, or none can hear, is not cut off") {
+    "end of the run: a broadcast does not count as cut off if a robot has received it, or if none "
+    "can hear it") {
     Line net(3);
     net.run_for(1s);
     net.send(a, everyone, "on its way");
@@ -131,7 +132,9 @@ TEST_CASE("unicast: a unicast that its destination cannot hear is dropped with a
     CHECK(values.cut_off == 0);
 }
 
-TEST_CASE("unicast: a message counts for reach only if a chain of links leads to its destination") {
+TEST_CASE(
+    "unicast: a message counts for the metric `reach` only if a chain of links leads to its "
+    "destination") {
     Line net(4);
     net.send(a, b, "near");
     net.run_for(1s);

@@ -109,7 +109,7 @@ TEST_CASE("sinks: records of receptions have received powers only if a sink requ
     }
 }
 
-TEST_CASE("callbacks: an ended callback is not called again, even if it is due") {
+TEST_CASE("callbacks: a callback that has been ended is not called again, even if it is due") {
     Pair pair;
     Network& net = pair.net;
     int heard = 0, ticks = 0, later = 0, arrived = 0;

@@ -278,7 +278,7 @@ class Steps(unittest.TestCase):
         session = rn.Session(ROW, step=3)
         session.step()
         self.assertEqual((session.done, session.time, session.end), (True, 2.0, 2.0))
-        with self.assertRaisesRegex(rn.RunError, "expected reset or finish"):
+        with self.assertRaisesRegex(rn.RunError, "expected a reset or a finish"):
             session.step()
         run = session.finish()
         self.assertEqual(run.duration, 2.0)

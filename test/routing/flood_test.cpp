@@ -318,7 +318,7 @@ TEST_CASE("flood: a TTL outside of 1 to 65535 and a negative jitter are refused"
     CHECK_THROWS_AS(FloodRouter(Flood{.jitter = Duration{-1}}), std::invalid_argument);
 }
 
-TEST_CASE("flood: TTL 260 crosses 260 hops") {
+TEST_CASE("flood: a message with TTL 260 crosses 260 hops") {
     const Ledger run = flooded(grid(300, 1, 0), {.ttl = 260});
     CHECK(run.delivered == 260);
 }
@@ -354,7 +354,7 @@ TEST_CASE("flood: with duplicates forwarded, all robots within the TTL are reach
     }
 }
 
-TEST_CASE("flood: without jitter copies are forwarded 1 us after their reception") {
+TEST_CASE("flood: without jitter, copies are forwarded 1 us after their reception") {
     const Ledger run = flooded(grid(5, 5, 12), {.ttl = 25, .jitter = Duration{0}});
     CHECK(run.transmissions == 25);
     CHECK(run.heard == 80);

@@ -69,7 +69,8 @@ struct Relay {
 }  // namespace
 
 TEST_CASE(
-    "managed, rule M1: the first copy with hops left is queued, with a hop limit smaller by one") {
+    "managed flood, rule M1: the first copy with hops left is queued, with a hop limit smaller by "
+    "one") {
     for (const char* role : {"", "client", "router", "router_late"}) {
         Relay node(role);
         const Reception r = node.hear(3);
@@ -83,7 +84,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "managed, rule M1: a copy with hop limit 0 is only delivered, and a mute node relays nothing") {
+    "managed flood, rule M1: a copy with hop limit 0 is only delivered, and a mute node relays "
+    "nothing") {
     Relay last;
     const Reception at_the_end = last.hear(0);
     CHECK(at_the_end.fate == Fate::ttl);
@@ -98,7 +100,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "managed, rule M1: a source sends its message at once, only once, with the full hop limit") {
+    "managed flood, rule M1: a source sends its message at once, only once, with the full hop "
+    "limit") {
     Relay node;
     node.router.send(node.link, {1}, node.message);
     REQUIRE(node.link.sent.size() == 1);
@@ -113,7 +116,8 @@ TEST_CASE(
     CHECK(node.link.sent.size() == 1);
 }
 
-TEST_CASE("managed, rule M2: an SNR of -20 to 10 dB gives a contention window (CW) of 3 to 8") {
+TEST_CASE(
+    "managed flood, rule M2: an SNR of -20 to 10 dB gives a contention window (CW) of 3 to 8") {
     const std::vector<std::pair<double, int>> windows{
         {-40, 3},  {-20, 3}, {-15, 3},  {-14.5, 4},       {-14, 4}, {-8.1, 5},
         {-7.5, 5}, {-2, 6},  {-0.9, 6}, {0, 6},           {3.9, 6}, {4, 7},
@@ -125,7 +129,8 @@ TEST_CASE("managed, rule M2: an SNR of -20 to 10 dB gives a contention window (C
 }
 
 TEST_CASE(
-    "managed, rule M2: routers wait 0 to 2 CW - 1 slots, other roles 16 to 16 + 2^CW - 1 slots") {
+    "managed flood, rule M2: routers wait 0 to 2 CW - 1 slots, other roles 16 to 16 + 2^CW - 1 "
+    "slots") {
     const auto slots = [](const char* role, double drawn, Db snr) {
         Relay node(role);
         node.link.drawn = drawn;
@@ -147,7 +152,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "managed, rule M4: if a client hears a duplicate while its copy is queued, it does not relay") {
+    "managed flood, rule M4: if a client hears a duplicate while its copy is queued, it does not "
+    "relay") {
     for (const char* role : {"", "client"}) {
         Relay node(role);
         node.hear(3);
@@ -161,7 +167,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("managed, rule M4: a router relays also if it hears a duplicate") {
+TEST_CASE("managed flood, rule M4: a router relays also if it hears a duplicate") {
     Relay node("router");
     node.hear(3);
     const auto slots = node.slots();
@@ -170,7 +176,8 @@ TEST_CASE("managed, rule M4: a router relays also if it hears a duplicate") {
 }
 
 TEST_CASE(
-    "managed, rule M4: a late router that hears a duplicate waits behind the slots of all others") {
+    "managed flood, rule M4: a late router that hears a duplicate waits behind the slots of all "
+    "others") {
     Relay node("router_late");
     node.link.drawn = 0.1;
     node.hear(3, -8_dB);
@@ -185,7 +192,8 @@ TEST_CASE(
     CHECK(node.slots() == 16 + 31);
 }
 
-TEST_CASE("managed, rule M4: a copy that a node hears after its own send time cancels nothing") {
+TEST_CASE(
+    "managed flood, rule M4: a copy that a node hears after its own send time cancels nothing") {
     for (const char* role : {"", "router", "router_late"}) {
         Relay node(role);
         node.hear(3);
@@ -197,7 +205,8 @@ TEST_CASE("managed, rule M4: a copy that a node hears after its own send time ca
 }
 
 TEST_CASE(
-    "managed, rule M4: a duplicate cancels no new frame that reuses the handle of the sent copy") {
+    "managed flood, rule M4: a duplicate cancels no new frame that reuses the handle of the sent "
+    "copy") {
     Relay node;
     node.hear(3);
     node.link.sent[0].queued.frame.sender = NodeId{3};
@@ -206,7 +215,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "managed, rule M5: in all roles, a duplicate with a higher hop limit replaces the queued "
+    "managed flood, rule M5: in all roles, a duplicate with a higher hop limit replaces the queued "
     "copy") {
     for (const char* role : {"", "router", "router_late"}) {
         Relay node(role);
@@ -221,7 +230,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("managed, rule M5: the delay of the replacing copy is drawn anew") {
+TEST_CASE("managed flood, rule M5: the delay of the replacing copy is drawn anew") {
     Relay node;
     node.link.drawn_at = {{0, 0.25}, {1, 0.75}};
     node.hear(1);
@@ -230,7 +239,7 @@ TEST_CASE("managed, rule M5: the delay of the replacing copy is drawn anew") {
     CHECK(node.slots() == 16 + 192);
 }
 
-TEST_CASE("managed, rule M5: if no copy is queued, a higher hop limit has no effect") {
+TEST_CASE("managed flood, rule M5: if no copy is queued, a higher hop limit has no effect") {
     Relay ended;
     ended.hear(0);
     CHECK(ended.hear(1).fate == Fate::duplicate);
@@ -243,7 +252,8 @@ TEST_CASE("managed, rule M5: if no copy is queued, a higher hop limit has no eff
 }
 
 TEST_CASE(
-    "managed, rule M6: a message that its source repeats is relayed again if no copy is queued") {
+    "managed flood, rule M6: a message that its source repeats is relayed again if no copy is "
+    "queued") {
     Relay node;
     node.link.drawn_at = {{0, 0.25}, {1, 0.75}};
     CHECK(node.hear(5).delivered);
@@ -258,7 +268,7 @@ TEST_CASE(
     CHECK(node.copy().frame.ttl - 1 == 4);
 }
 
-TEST_CASE("managed: a hop limit outside of 1 to 7 and a negative slot duration are refused") {
+TEST_CASE("managed flood: a hop limit outside of 1 to 7 and a negative slot duration are refused") {
     for (const int hop_limit : {0, 8, -1}) {
         CHECK_THROWS_AS(ManagedRouter(Managed{.hop_limit = hop_limit}), std::invalid_argument);
     }
@@ -315,7 +325,8 @@ constexpr int seeds = 200;
 }  // namespace
 
 TEST_CASE(
-    "managed on graphs: along a line, hop limit 3 reaches the fourth node over three relays") {
+    "managed flood on graphs: along a line, hop limit 3 reaches the fourth node over three "
+    "relays") {
     CHECK(flooded(5, line(5)) == Flooded{4, {{1, 1}, {2, 2}, {3, 3}, {4, 4}}});
     CHECK(flooded(6, line(6)) == Flooded{4, {{1, 1}, {2, 2}, {3, 3}, {4, 4}}});
     for (int h = 1; h <= 7; ++h) {
@@ -325,7 +336,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "managed on graphs: if all nodes are clients in range, the first relay cancels the others") {
+    "managed flood on graphs: if all nodes are clients in range, the first relay cancels the "
+    "others") {
     // Relays of the same slot cannot cancel each other: n - 1 nodes in 256 slots, and the first
     // slot is shared by two of them with a probability below (n - 1) / 512.
     for (const std::uint32_t n : {3U, 5U, 10U}) {
@@ -342,7 +354,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "managed on graphs: if all nodes are neighbours and some are routers, only the routers relay") {
+    "managed flood on graphs: if all nodes are neighbours and some are routers, only the routers "
+    "relay") {
     for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
         for (const int r : {1, 2, 4}) {
             std::vector<std::string_view> roles(8, "client");
@@ -352,7 +365,8 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("managed on graphs: a late router relays a message even after a client has relayed it") {
+TEST_CASE(
+    "managed flood on graphs: a late router relays a message even after a client has relayed it") {
     int clients_first = 0;
     for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
         const Flooded run =
@@ -363,7 +377,7 @@ TEST_CASE("managed on graphs: a late router relays a message even after a client
     CHECK(std::abs(clients_first - seeds / 2) < 28);  // 4 sigma of 200 fair draws
 }
 
-TEST_CASE("managed on graphs: mute nodes never relay") {
+TEST_CASE("managed flood on graphs: mute nodes never relay") {
     const std::vector<std::string_view> mutes{"", "mute", "mute", "mute", "mute"};
     CHECK(flooded(5, clique(5), {.roles = mutes}) == Flooded{1, {{1, 1}, {2, 1}, {3, 1}, {4, 1}}});
     const std::vector<Graph::Edge> star{{0, 1}, {1, 2}, {1, 3}, {1, 4}};
@@ -374,7 +388,8 @@ TEST_CASE("managed on graphs: mute nodes never relay") {
 }
 
 TEST_CASE(
-    "managed on graphs: a node that hears the message from two relays does not relay it itself") {
+    "managed flood on graphs: a node that hears the message from two relays does not relay it "
+    "itself") {
     for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
         CAPTURE(seed);
         const Flooded run = flooded(4, {{0, 1}, {0, 2}, {1, 3}, {2, 3}}, {.seed = seed});
@@ -383,7 +398,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "managed on graphs: the node that hears the source with the weakest signal relays first") {
+    "managed flood on graphs: the node that hears the source with the weakest signal relays "
+    "first") {
     // Node 2 is far: its 8 slots lie before most of the 256 of node 1, so it loses 4 / 256 at most.
     int far_first = 0;
     for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
@@ -396,7 +412,7 @@ TEST_CASE(
     CHECK(far_first >= seeds - 12);
 }
 
-TEST_CASE("managed on graphs: a faster but longer path may use up the hop limit") {
+TEST_CASE("managed flood on graphs: a faster but longer path may use up the hop limit") {
     // 0-1-2-3, and a long way 0-4-5-2 of routers, which relay before client 1.
     const std::vector<Graph::Edge> edges{{0, 1}, {1, 2}, {2, 3}, {0, 4}, {4, 5}, {5, 2}};
     Options options{.roles = {"", "", "", "", "router", "router"},

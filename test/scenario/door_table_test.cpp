@@ -121,7 +121,7 @@ TEST_CASE("door: a printed door is read back unchanged") {
     CHECK(first.notices.empty());
 }
 
-TEST_CASE("door: an error in a door has line, column and what was expected") {
+TEST_CASE("door: the message for an error in a door has line, column and what was expected") {
     const House house;
     struct Mistake {
         std::string text, where;

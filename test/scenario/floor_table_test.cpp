@@ -227,7 +227,7 @@ TEST_CASE("floors: printed storeys are read back unchanged, and --set can change
     CHECK(higher.walls->storeys().floor(2) == 7);
 }
 
-TEST_CASE("floors: an error in a storey has line, column and what was expected") {
+TEST_CASE("floors: an error in a storey is reported with line, column and what was expected") {
     const Building building;
     const std::string map_and = "[scene]\nmap = \"ground.png\"\nsize = [\"10 m\", \"1 m\"]\n";
     const std::vector<Mistake> mistakes{

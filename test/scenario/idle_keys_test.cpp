@@ -55,8 +55,8 @@ TEST_CASE("idle keys: a parameter of a model that is not chosen gives a notice")
 }
 
 TEST_CASE(
-    "idle keys: parameters of a model give no notice if a study or the command line changes the "
-    "model") {
+    "idle keys: if a study or the command line changes the model, keys of other models in the file "
+    "give no notice") {
     const std::string ttl = "[routing]\nprotocol = \"dsr\"\nttl = 5\n";
     const std::string vary = "[study]\nvary.routing.protocol = [\"flood\", \"dsr\"]\n";
     CHECK(notices_of(ttl + vary).empty());
@@ -65,7 +65,9 @@ TEST_CASE(
     CHECK(notices_of(flood, {"routing.protocol=dsr", "routing.ttl=5"}).size() == 1);
 }
 
-TEST_CASE("idle keys: a key of a suppression scheme that is not chosen gives a notice") {
+TEST_CASE(
+    "idle keys: a key of the protocol `suppression` that the chosen scheme does not use gives a "
+    "notice") {
     const std::string counter = "[routing]\nprotocol = \"suppression\"\n";
     check_notice(counter + "range = \"60 m\"\n",
                  "3:1: the key \"range\" has no effect without [routing] scheme = \"location\"");
@@ -78,7 +80,7 @@ TEST_CASE("idle keys: a key of a suppression scheme that is not chosen gives a n
               .empty());
 }
 
-TEST_CASE("idle keys: a key that a different key of its model switches off gives a notice") {
+TEST_CASE("idle keys: a key that has no effect because of another key gives a notice") {
     struct Idle {
         std::string head, key, needed;
     };
@@ -135,7 +137,7 @@ TEST_CASE("idle keys: materials and heights of walls on an open field give notic
                  "walls");
 }
 
-TEST_CASE("idle keys: a printed scenario gives no notices that the scenario did not give") {
+TEST_CASE("idle keys: a scenario that is printed and read again gives no new notices") {
     const TemporaryFolder folder;
     for (const std::string head :
          {"", "[access]\nmodel = \"csma\"\n[reception]\nmodel = \"sinr\"\n",

@@ -55,14 +55,14 @@ std::string unicast(const std::string& more) {
 
 }  // namespace
 
-TEST_CASE("routing input: an unknown protocol is an error with all names and a suggestion") {
+TEST_CASE("routing input: the error for an unknown protocol lists all protocols and suggests one") {
     const std::string error = error_of("[routing]\nprotocol = \"aovd\"\n");
     CHECK(has(error,
               "s.toml:8:12: unknown protocol \"aovd\"; expected one of \"flood\", \"aodv\", "
               "\"dsr\", \"suppression\", \"managed\"; did you mean \"aodv\"?"));
 }
 
-TEST_CASE("routing input: an unknown key is an error, and keys of other protocols are suggested") {
+TEST_CASE("routing input: the error for an unknown key may suggest a key of another protocol") {
     const std::string chosen = "[routing]\nprotocol = \"flood\"\n";
     CHECK(
         has(error_of(chosen + "colour = 3\n"), "s.toml:9:1: unknown key \"colour\" in [routing]"));
@@ -87,17 +87,21 @@ TEST_CASE(
     CHECK(has(error_of("[routing]\nhello = \"-1 s\"\n"), "s.toml:8:9: hello: found \"-1 s\""));
 }
 
-TEST_CASE("routing input: a value that the scheme of a protocol refuses is an error at its key") {
+TEST_CASE(
+    "routing input: a value that the scheme of `suppression` refuses is an error with line and "
+    "column") {
     const std::string chosen = "[routing]\nprotocol = \"suppression\"\n";
     CHECK(has(error_of(chosen + "scheme = \"counter\"\nthreshold = 2.5\n"),
               "s.toml:10:13: suppression: threshold must be a whole number from 1 to 1e9"));
     CHECK(has(error_of(chosen + "scheme = \"location\"\n"),
-              "s.toml:7:1: suppression: range must be given, > 0 m for scheme \"location\""));
+              "s.toml:7:1: suppression: range must be given; expected a value > 0 m for scheme "
+              "\"location\""));
     CHECK(has(error_of(chosen + "scheme = \"cluster\"\nthreshold = 2\n"),
               "s.toml:10:13: suppression: threshold must be left out for scheme \"cluster\""));
 }
 
-TEST_CASE("routing input: a role that the protocol does not have is an error at the robot") {
+TEST_CASE(
+    "routing input: an unknown role of a robot is an error with line, column and a suggestion") {
     const std::string robots = two_robots + "role = \"ruoter\"\n";
     const std::string error = error_of("[routing]\nprotocol = \"managed\"\n", robots);
     CHECK(has(error,
@@ -118,18 +122,20 @@ TEST_CASE("routing input: sizes and payloads too large for a UDP packet are erro
               "s.toml:7:35: size: found \"1 MB\"; expected a value from 0 to 65507 bytes"));
 }
 
-TEST_CASE("routing input: a broadcast over one hop gives a notice") {
+TEST_CASE("routing input: a broadcast limited to one hop (hops = 1) gives a notice") {
     const std::string text = all_notices("[[traffic]]\nfrom = \"A\"\nsize = \"9 B\"\nhops = 1\n");
     CHECK(text ==
           "s.toml:10:8: hops: with hops = 1 the routing protocol does not forward these "
-          "broadcasts, so only neighbours of \"A\" hear these broadcasts; without the key hops, "
-          "the protocol forwards them\n");
+          "broadcasts, so only neighbours of \"A\" hear these broadcasts; without the key "
+          "\"hops\", the protocol forwards these broadcasts\n");
     CHECK(all_notices("[[traffic]]\nfrom = \"A\"\nsize = \"9 B\"\n").empty());
     CHECK(has(error_of("[[traffic]]\nfrom = \"A\"\nsize = \"9 B\"\nhops = 2\n"),
               "s.toml:10:8: hops: found the number 2; expected a value of 1"));
 }
 
-TEST_CASE("routing input: a unicast under a flood gives a notice that names a routing protocol") {
+TEST_CASE(
+    "routing input: a unicast gives a notice if the protocol, such as `flood`, does not route "
+    "unicasts") {
     for (const std::string protocol : {"flood", "suppression", "managed"}) {
         const std::string chosen = "[routing]\nprotocol = \"" + protocol + "\"\n";
         const std::string text = all_notices(unicast("size = \"9 B\"") + chosen);
@@ -143,7 +149,9 @@ TEST_CASE("routing input: a unicast under a flood gives a notice that names a ro
     }
 }
 
-TEST_CASE("routing input: a broadcast under a protocol of unicasts gives a notice") {
+TEST_CASE(
+    "routing input: a broadcast gives a notice if the protocol, such as `aodv`, does not forward "
+    "broadcasts") {
     const std::string broadcast = "[[traffic]]\nfrom = \"A\"\nsize = \"9 B\"\n";
     for (const std::string protocol : {"aodv", "dsr"}) {
         const std::string chosen = "[routing]\nprotocol = \"" + protocol + "\"\n";
@@ -164,8 +172,8 @@ TEST_CASE("routing input: a broadcast under a protocol of unicasts gives a notic
 }
 
 TEST_CASE(
-    "routing input: a notice after the run says if dsr lost messages because a route would be too "
-    "long") {
+    "routing input: after the run, a notice says if `dsr` lost messages because routes would be "
+    "too long") {
     const auto notice_with = [](int robots) {
         std::string text =
             "[scenario]\nduration = \"60 s\"\n[propagation]\nmodel = \"disc\"\nrange = \"9 m\"\n"

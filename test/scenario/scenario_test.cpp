@@ -281,7 +281,7 @@ TEST_CASE("scenario: keys of protocols that are not chosen are checked and kept"
                       doctest::Contains("did you mean \"hello\"?"));
 }
 
-TEST_CASE("scenario: every key of the file is read into its field") {
+TEST_CASE("scenario: every key of a scenario file is read and stored in the right field") {
     const Scenario s = read(every_key);
     CHECK(s.scenario.duration == 12345678us);
     CHECK(s.scenario.event_limit == 5000);
@@ -358,8 +358,7 @@ TEST_CASE("scenario: a scenario printed with all defaults is read back unchanged
 }
 
 TEST_CASE(
-    "scenario: every key that is printed occurs in the test scenario that is meant to have all "
-    "keys") {
+    "scenario: the test scenario meant to have all keys is printed with exactly its own keys") {
     std::vector<std::string> given, shown;
     list_keys(parse_toml(every_key, ""), "", given);
     list_keys(Value(to_document(read(every_key))), "", shown);
@@ -397,7 +396,7 @@ TEST_CASE(
     CHECK(std::get<Disc>(swapped.propagation.parameters).range == Meters{50});
 }
 
-TEST_CASE("scenario: the key `coefficient` sets the coefficient of both models that have one") {
+TEST_CASE("scenario: the key `coefficient` applies to both itu_indoor and raytrace_2007") {
     const Scenario s = read("[propagation]\ncoefficient = 22\n" + robot_a);
     CHECK(std::get<ItuIndoor>(s.propagation.parameters).coefficient == 22);
     CHECK(std::get<Raytrace2007>(s.propagation.parameters).coefficient == 22);
@@ -419,7 +418,7 @@ TEST_CASE("scenario: a robot's own keys override [radio] and [propagation]") {
 }
 
 TEST_CASE(
-    "scenario: with an OFDM standard, radios get its preamble and rate, unless the scenario sets "
+    "scenario: an OFDM standard sets the preamble and rate of radios, unless the scenario sets "
     "them") {
     const std::string ofdm = robot_a + "[access]\nmodel = \"csma\"\nstandard = \"802.11a\"\n";
     CHECK(read(ofdm).robots[0].radio.preamble == 20us);
@@ -459,7 +458,7 @@ TEST_CASE("--set: a power without a unit is in watts") {
     CHECK(std::abs(s.radio.power.value - 20) < rounding_db);
 }
 
-TEST_CASE("--set: the last of two options for one key is used") {
+TEST_CASE("--set: if two options set the same key, the last one counts") {
     CHECK(with(robot_a, {"scenario.seed=2", "scenario.seed=3"}).scenario.seed == 3);
 }
 

@@ -107,7 +107,8 @@ TEST_CASE("scene: keys of other programs in a ROS map give one notice each") {
     CHECK(std::count_if(scenario.notices.begin(), scenario.notices.end(), of_map) == 1);
 }
 
-TEST_CASE("scene: a material is selected by its grey level, and has its own loss") {
+TEST_CASE(
+    "scene: the grey level of a wall selects its material, and the material sets the wall's loss") {
     const TemporaryFolder folder;
     folder.write("m.png", picture());
     const std::string file = folder.write(

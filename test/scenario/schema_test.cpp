@@ -71,7 +71,9 @@ std::set<std::string> keys_of(const Table& schema) {
 
 }  // namespace
 
-TEST_CASE("schema: each table has the keys that its reader knows, and no others") {
+TEST_CASE(
+    "schema: the JSON schema has for each table exactly the keys that the scenario reader "
+    "accepts") {
     const Table schema = scenario_schema();
     struct Case {
         std::string text;
@@ -119,7 +121,9 @@ TEST_CASE("schema: each table has the keys that its reader knows, and no others"
     }
 }
 
-TEST_CASE("schema: each movement model has the keys that its reader knows") {
+TEST_CASE(
+    "schema: the JSON schema has for each movement model exactly the keys that the reader "
+    "accepts") {
     const Table schema = scenario_schema();
     const auto& models = *part(schema, {"properties", "robot", "items", "properties", "move"})
                               .find("anyOf")
@@ -135,7 +139,7 @@ TEST_CASE("schema: each movement model has the keys that its reader knows") {
     }
 }
 
-TEST_CASE("schema: values have the type, the unit and the limits that the reader requires") {
+TEST_CASE("schema: the JSON schema accepts a value exactly if the scenario reader accepts it") {
     const auto agree = [](const std::string& text) {
         CAPTURE(text);
         const bool is_right = error_of(text).empty();

@@ -48,7 +48,9 @@ std::string with(std::string text, const std::string& old, const std::string& no
 
 }  // namespace
 
-TEST_CASE("traffic file: flows of cbrgen are unicasts with their size, interval, start and stop") {
+TEST_CASE(
+    "traffic file: flows from ns-2's generator cbrgen are read as unicasts with size, interval and "
+    "times") {
     const TemporaryFolder folder;
     const std::string text = "#\n# nodes: 4, max conn: 2, send rate: 0.25, seed: 2\n#\n" +
                              flow(0, 3, 0, "15.213169") + flow(1, 0, 2, "19.130138") +
@@ -70,7 +72,9 @@ TEST_CASE("traffic file: flows of cbrgen are unicasts with their size, interval,
     CHECK(file.notices[0].find("random_ of 2 flows is ignored") != std::string::npos);
 }
 
-TEST_CASE("traffic file: the interval follows from the rate, and the defaults are those of ns-2") {
+TEST_CASE(
+    "traffic file: the interval of messages follows from the rate, and the defaults are those of "
+    "ns-2") {
     const TemporaryFolder folder;
     const auto every = [&](const std::string& key) {
         const std::string text = with(flow(0, 1, 2, "1.0"), "$cbr_(0) set interval_ 0.25\n", key);

@@ -83,17 +83,19 @@ TEST_CASE("unlikely input: a frequency with a wrong unit gives a notice with a s
     check_notice(robot_a + "radio = { frequency = \"1 Hz\" }\n", {":4:23: ", "not a frequency of"});
 }
 
-TEST_CASE("unlikely input: a rate that the standard does not have gives a notice") {
+TEST_CASE(
+    "unlikely input: a data rate that the chosen 802.11 standard does not have gives a notice") {
     check_notice("[radio]\nrate = \"54 Mb/s\"\n[access]\nmodel = \"csma\"\n" + robot_a,
-                 {":2:8: rate: 802.11b has no rate of 54 Mb/s", "1, 2, 5.5, 11"});
+                 {":2:8: rate: standard 802.11b has no rate of 54 Mb/s", "1, 2, 5.5, 11"});
     check_notice(
         "[access]\nmodel = \"csma\"\nstandard = \"802.11a\"\nbasic_rates = [\"11 Mb/s\"]\n" +
             robot_a,
-        {":4:15: basic_rates: 802.11a"});
+        {":4:15: basic_rates: standard 802.11a"});
     CHECK(notices_of("[radio]\nrate = \"54 Mb/s\"\n" + robot_a).empty());  // nobody's standard
 }
 
-TEST_CASE("unlikely input: payloads that look like sizes, such as 64 B, give one notice for all") {
+TEST_CASE(
+    "unlikely input: payload texts that look like sizes, such as 64 B, give one notice in total") {
     const auto traffic = [](const std::string& lines) {
         return "[[traffic]]\nfrom = \"A\"\n" + lines + "\n";
     };
@@ -109,7 +111,9 @@ TEST_CASE("unlikely input: payloads that look like sizes, such as 64 B, give one
     CHECK(notices_of(robot_a + traffic("payload = \"64 B\"\nsize = \"64 B\"")).empty());
 }
 
-TEST_CASE("unlikely input: a unicast under a flood goes one hop, with a notice unless hops = 1") {
+TEST_CASE(
+    "unlikely input: with the protocol `flood`, a unicast goes one hop and gives a notice unless "
+    "hops = 1") {
     const std::string two = robot_a + "[[robot]]\nname = \"B\"\nat = [\"4 m\", \"2 m\"]\n";
     const std::string unicast =
         "[[traffic]]\nkind = \"unicast\"\nfrom = \"A\"\nto = \"B\"\npayload = \"x\"\n";
@@ -127,7 +131,9 @@ TEST_CASE("unlikely input: a unicast under a flood goes one hop, with a notice u
     CHECK(to_toml(to_document(scenario)).find("hops = 1\n") != std::string::npos);
 }
 
-TEST_CASE("unlikely input: switching a robot on that is on, or off that is off, gives a notice") {
+TEST_CASE(
+    "unlikely input: a robot that is switched on while it is on, or off while it is off, gives a "
+    "notice") {
     check_notice(robot_a + "on = [\"1 s\"]\noff = [\"5 s\"]\n",
                  {":4:6: on: ", "already on at 1 s"});
     check_notice(robot_a + "off = [\"1 s\", \"2 s\"]\n", {":4:7: off: ", "already off at 2 s"});
@@ -165,7 +171,7 @@ TEST_CASE("unlikely input: robots that start off the map give one notice") {
 }
 
 TEST_CASE(
-    "unlikely input: with model rays, a wall drawn 1 m thick without a material gives a notice") {
+    "unlikely input: with the model `rays`, a wall 1 m thick without a material gives a notice") {
     const std::string robot = "[[robot]]\nname = \"A\"\nat = [\"0.5 m\", \"0.5 m\"]\n";
     const std::string rays = "[propagation]\nmodel = \"rays\"\n";
     check_notice(
@@ -228,7 +234,7 @@ TEST_CASE(
     CHECK(notices_of(on_map + robot + "propagation = { model = \"friis\" }\n" + rays).empty());
 }
 
-TEST_CASE("unlikely input: pixels of a material that are not walls give a notice") {
+TEST_CASE("unlikely input: a material whose pixels are not walls gives a notice") {
     const std::string robot = "[[robot]]\nname = \"A\"\nat = [\"0.5 m\", \"0.5 m\"]\n";
     check_notice(
         on_map + robot + "[scene.materials]\npane = { grey = 140, per_crossing = \"3 dB\" }\n",
@@ -243,7 +249,9 @@ TEST_CASE("unlikely input: pixels of a material that are not walls give a notice
               .empty());
 }
 
-TEST_CASE("unlikely input: greys between a ROS map's thresholds are not walls, and give a notice") {
+TEST_CASE(
+    "unlikely input: a material whose greys are not walls by the thresholds of a ROS map gives a "
+    "notice") {
     const TemporaryFolder folder;
     const test::PngPicture picture{.width = 4, .height = 1, .rows = {{255, 0, 120, 255}}};
     folder.write("m.png", test::png_bytes(picture));
@@ -302,7 +310,9 @@ radius = "0.01 m"
     CHECK(refused.find("its radius of 0.01 m (clearance 0.00996 m)") != std::string::npos);
 }
 
-TEST_CASE("unlikely input: a robot with its own model has no parameters from [propagation]") {
+TEST_CASE(
+    "unlikely input: a robot with its own propagation model takes no parameters from "
+    "[propagation]") {
     const TemporaryFolder folder;
     const auto loss = [&](const std::string& own) {
         const Scenario s = loaded(folder,
@@ -321,8 +331,8 @@ TEST_CASE("unlikely input: a robot with its own model has no parameters from [pr
 }
 
 TEST_CASE(
-    "unlikely: the protocol managed with a model that has no levels, such as disc, gives a "
-    "notice") {
+    "unlikely input: the protocol `managed`, used with a model without levels such as `disc`, "
+    "gives a notice") {
     const std::string disc = "{ model = \"disc\", range = \"9 m\" }\n";
     const std::string managed = "[routing]\nprotocol = \"managed\"\n";
     const std::string robot_b = "[[robot]]\nname = \"B\"\nat = [\"3 m\", \"2 m\"]\n";
@@ -359,8 +369,8 @@ TEST_CASE("memory: more robots than fit into memory are refused before any is cr
 }
 
 TEST_CASE(
-    "unlikely input: a coherent sum of rays gives a notice if walls are oblique to the map's "
-    "grid") {
+    "unlikely input: sum = \"coherent\" in the model `rays` gives a notice for walls oblique to "
+    "the map's grid") {
     // A wall of 30 cm through the middle of a room of 6 m, in cells of 5 cm.
     const auto room = [](double slope) {
         std::vector<std::string> rows(80, std::string(120, '.'));
@@ -478,7 +488,8 @@ TEST_CASE("traffic: robots that send simultaneously give a notice if their frame
 }
 
 TEST_CASE(
-    "scenario errors: a suggested value has the right type; raytrace_2008 gets no suggestion") {
+    "scenario errors: a suggested value has the right type; the unknown raytrace_2008 gets no "
+    "suggestion") {
     const TemporaryFolder folder;
     const auto error = [&](const std::string& text) {
         return error_of([&] { loaded(folder, text + robot_a); });

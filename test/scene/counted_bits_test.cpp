@@ -13,7 +13,7 @@
 namespace counted_bits_test {
 using namespace rovernet;
 
-TEST_CASE("counted bits: below(n) returns the number of members that are smaller than n") {
+TEST_CASE("counted bits: below(n) returns how many members of the set are smaller than n") {
     test::Draw draw(41);
     for (const int end : {0, 1, 63, 64, 65, 1000}) {
         std::set<std::size_t> members;

@@ -195,7 +195,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "faces: a rotated map has rotated faces, an open field none; all threads get the same faces") {
+    "faces: a rotated map has rotated faces, an open field has none; all threads get the same "
+    "faces") {
     OccupancyGrid grid = test::drawn_map({"......", ".####.", "......"}, 0.5);
     grid.yaw = 25 * degree;
     grid.origin = {3, -4};

@@ -80,7 +80,8 @@ TEST_CASE("layers: the loss is equal in both directions, to the last bit") {
 }
 
 TEST_CASE(
-    "layers: where two walls overlap, the length counts twice only if their materials differ") {
+    "layers: where two walls overlap, the common length counts twice only if their materials "
+    "differ") {
     const Scene same({box(1, 0, 2, 1), box(2, 0, 2, 1)}, {Material{}});
     CHECK(near(same.wall_length({0, 0.5}, {9, 0.5}), 3));
     CHECK(same.crossings({0, 0.5}, {9, 0.5}).size() == 1);
@@ -96,7 +97,9 @@ TEST_CASE("layers: a box turned by 45 degrees is crossed along its diagonal") {
     CHECK(near(scene.wall_length({0, std::sqrt(2)}, {10, std::sqrt(2)}), 2 * std::sqrt(2)));
 }
 
-TEST_CASE("layers: a link above a wall is outside the wall; a link through its top partly inside") {
+TEST_CASE(
+    "layers: a link above a wall is outside the wall, a link through the wall's top is partly "
+    "inside") {
     const Scene scene(box(4, 0, 2, 1), {Material{.height = Meters{2}}});
     CHECK(near(scene.wall_length({0, 0.5, 1}, {10, 0.5, 1}), 2));
     CHECK(scene.wall_length({0, 0.5, 2}, {10, 0.5, 2}) == 0);
@@ -110,7 +113,7 @@ TEST_CASE("layers: a link above a wall is outside the wall; a link through its t
     CHECK_FALSE(scene.plain_walls());
 }
 
-TEST_CASE("layers: robots avoid the obstacles of every map") {
+TEST_CASE("layers: robots avoid the obstacles of all maps that form a scene") {
     const Scene scene({drawn_map({"....", "...#"}), box(0.2, 0.2, 0.5, 0.1)}, {Material{}});
     CHECK(near(scene.clearance({0.45, 0.7, 0}), 0.4));
     CHECK(near(scene.clearance({2.5, 0.5, 0}), 0.5));
@@ -142,7 +145,9 @@ TEST_CASE("layers: a cell of the planning grid is free only if no obstacle enter
     CHECK(in_doubt == 0);
 }
 
-TEST_CASE("layers: if a planning grid has too many cells, its cells grow, but only as necessary") {
+TEST_CASE(
+    "layers: if a planning grid would have too many cells, they are larger, but only as "
+    "necessary") {
     const std::vector<OccupancyGrid> maps{drawn_map({"#..", "..."}, 0.01), box(60, 30, 1, 1)};
     const OccupancyGrid grid = planning_grid(maps);
     const double cells = 1.0 * grid.columns * grid.rows;

@@ -173,22 +173,24 @@ TEST_CASE(
 
 TEST_CASE("ROS map: errors name line and column, and what to write instead") {
     CHECK(error_of(good) == "");
-    CHECK(contains(error_of("resolution: 0.05\norigin: [0, 0, 0]"), "no key \"image\""));
-    CHECK(contains(error_of("image: map.pgm\norigin: [0, 0, 0]"), "no key \"resolution\""));
-    CHECK(contains(error_of("image: map.pgm\nresolution: 1"), "no key \"origin\""));
+    CHECK(
+        contains(error_of("resolution: 0.05\norigin: [0, 0, 0]"), "the key \"image\" is missing"));
+    CHECK(contains(error_of("image: map.pgm\norigin: [0, 0, 0]"),
+                   "the key \"resolution\" is missing"));
+    CHECK(contains(error_of("image: map.pgm\nresolution: 1"), "the key \"origin\" is missing"));
     const std::string typo = error_of(good + "ocupied_thresh: 0.65\n");
     CHECK(contains(typo, "4:1 unknown key \"ocupied_thresh\""));
     CHECK(contains(typo, "did you mean \"occupied_thresh\"?"));
-    CHECK(contains(error_of(good + "mode: trinry\n"), "4:7 mode is \"trinry\""));
+    CHECK(contains(error_of(good + "mode: trinry\n"), "4:7 \"mode\" is \"trinry\""));
     CHECK(contains(error_of(good + "mode: trinry\n"), "did you mean \"trinary\"?"));
-    CHECK(contains(error_of(good + "mode: [raw]\n"), "4:7 mode is a list"));
-    CHECK(contains(error_of(good + "negate: maybe\n"), "4:9 negate is \"maybe\""));
+    CHECK(contains(error_of(good + "mode: [raw]\n"), "4:7 \"mode\" is a list"));
+    CHECK(contains(error_of(good + "negate: maybe\n"), "4:9 \"negate\" is \"maybe\""));
     CHECK(contains(error_of(good + "negate: 0\nnegate: 1\n"), "5:1 key \"negate\" is given twice"));
-    CHECK(contains(error_of(good + "free_thresh: low\n"), "4:14 free_thresh is \"low\""));
-    CHECK(contains(error_of(good + "free_thresh: .nan\n"), "4:14 free_thresh is \".nan\""));
+    CHECK(contains(error_of(good + "free_thresh: low\n"), "4:14 \"free_thresh\" is \"low\""));
+    CHECK(contains(error_of(good + "free_thresh: .nan\n"), "4:14 \"free_thresh\" is \".nan\""));
     CHECK(contains(error_of(good + "free_thresh: -0.1\n"), "from 0 to 1"));
     CHECK(contains(error_of(good + "occupied_thresh: 65\n"), "from 0 to 1"));
-    CHECK(contains(error_of(good + "free_thresh: 0.5\noccupied_thresh: 0.5\n"), "5:18 occupied"));
+    CHECK(contains(error_of(good + "free_thresh: 0.5\noccupied_thresh: 0.5\n"), "5:18 \"occupied"));
 }
 
 TEST_CASE("ROS map: a key of another program gives a notice, a misspelt key is an error") {
@@ -210,8 +212,8 @@ TEST_CASE(
     "given value") {
     CHECK(notices_of("occupied_thresh: 0.05\n") ==
           std::vector<std::string>{
-              "map.yaml:4:18: the key free_thresh is missing, and its default 0.25 contradicts "
-              "occupied_thresh = 0.05, so both keys get the value 0.05"});
+              "map.yaml:4:18: the key \"free_thresh\" is missing, and its default value 0.25 "
+              "contradicts occupied_thresh = 0.05, so both keys get the value 0.05"});
     CHECK(notices_of("free_thresh: 0.7\n").size() == 1);
     CHECK(notices_of("occupied_thresh: 0.3\n").empty());
     CHECK(notices_of("free_thresh: 0.6\n").empty());
@@ -240,16 +242,16 @@ TEST_CASE("ROS map: an invalid resolution or origin is an error with line and co
         return error_of("image: map.pgm\nresolution: " + value + "\norigin: [0, 0, 0]\n");
     };
     for (const char* bad : {"0", "-0.05", ".nan", ".inf", "5 cm", "[1]", "''", "~"})
-        CHECK_MESSAGE(contains(resolution(bad), "2:13 resolution"), bad);
+        CHECK_MESSAGE(contains(resolution(bad), "2:13 \"resolution"), bad);
     const auto origin = [](const std::string& value) {
         return error_of("image: map.pgm\nresolution: 1\norigin: " + value + "\n");
     };
-    CHECK(contains(origin("[0, 0]"), "3:9 origin is a list of 2; expected exactly three"));
-    CHECK(contains(origin("[0, 0, 0, 0]"), "3:9 origin is a list of 4"));
-    CHECK(contains(origin("0"), "3:9 origin is \"0\""));
-    CHECK(contains(origin("[0, north, 0]"), "3:13 origin is \"north\""));
-    CHECK(contains(origin("[0, 0, .nan]"), "3:16 origin is \".nan\""));
-    CHECK(contains(origin("{x: 0}"), "origin is a map"));
+    CHECK(contains(origin("[0, 0]"), "3:9 \"origin\" is a list of 2; expected exactly three"));
+    CHECK(contains(origin("[0, 0, 0, 0]"), "3:9 \"origin\" is a list of 4"));
+    CHECK(contains(origin("0"), "3:9 \"origin\" is \"0\""));
+    CHECK(contains(origin("[0, north, 0]"), "3:13 \"origin\" is \"north\""));
+    CHECK(contains(origin("[0, 0, .nan]"), "3:16 \"origin\" is \".nan\""));
+    CHECK(contains(origin("{x: 0}"), "\"origin\" is a map"));
 }
 
 TEST_CASE(
@@ -260,12 +262,13 @@ TEST_CASE(
     CHECK(contains(error_of(""), "no \"key: value\" lines"));
     CHECK(contains(error_of("- image\n"), "no \"key: value\" lines"));
     CHECK(contains(error_of("just words"), "no \"key: value\" lines"));
-    CHECK(contains(error_of("{1: 2, [a]: b}"), "no key \"image\""));
-    CHECK(contains(error_of("[a]: b"), "no key \"image\""));
+    CHECK(contains(error_of("{1: 2, [a]: b}"), "the key \"image\" is missing"));
+    CHECK(contains(error_of("[a]: b"), "the key \"image\" is missing"));
     CHECK(error_of(std::string(5000, '[')) != "");
     CHECK(error_of("\xff\xfe\x00") != "");
     CHECK(contains(error_of(std::string(2'000'000, ' ')), "more than a megabyte"));
-    CHECK(contains(error_of("image: ''\nresolution: 1\norigin: [0, 0, 0]"), "1:8 image is empty"));
+    CHECK(contains(error_of("image: ''\nresolution: 1\norigin: [0, 0, 0]"),
+                   "1:8 \"image\" is empty"));
     CHECK(contains(error_of("image: gone.pgm\nresolution: 1\norigin: [0, 0, 0]"), "no such file"));
     const TemporaryFolder folder;
     CHECK_THROWS_AS(read_ros_map(folder.path("absent.yaml")), InputError);

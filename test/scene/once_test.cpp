@@ -26,7 +26,7 @@ TEST_CASE("once: if threads request a piece of work at the same time, it is done
     }
 }
 
-TEST_CASE("once: work that fails is tried again") {
+TEST_CASE("once: work that failed is done again at the next request") {
     Once once;
     CHECK_THROWS_AS(once([] { throw std::runtime_error("no memory"); }), std::runtime_error);
     int works = 0;

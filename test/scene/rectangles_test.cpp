@@ -45,7 +45,8 @@ TEST_CASE("rectangles: a full map becomes one rectangle, an empty map none") {
     CHECK(solid_rectangles(OccupancyGrid{}, Solid::walls).empty());
 }
 
-TEST_CASE("rectangles: the larger of the widest and the tallest rectangle is taken first") {
+TEST_CASE(
+    "rectangles: of two rectangles, one grown first right and one first up, the larger is taken") {
     CHECK(solid_rectangles(drawn_map({"#..", "#..", "#..", "##."}), Solid::walls) ==
           std::vector<CellRectangle>{{0, 0, 1, 4}, {1, 0, 2, 1}});
     CHECK(solid_rectangles(drawn_map({"#..", "###"}), Solid::walls) ==

@@ -69,8 +69,8 @@ TEST_CASE("redrawing: a map whose cells are split has the same walls, to the las
 }
 
 TEST_CASE(
-    "redrawing: four cells join to a wall cell if any is a wall, with the material of the first "
-    "wall") {
+    "redrawing: four cells, at least one of them a wall, join to a wall of the first wall's "
+    "material") {
     const OccupancyGrid joined = join_cells(two_materials({"....?",  //
                                                            ".....",  //
                                                            "..#..",  //

@@ -189,7 +189,9 @@ TEST_CASE(
     CHECK(near(behind.wall_length({0.175, 0}, {0.175, 0.1}), 0.1));
 }
 
-TEST_CASE("crossings: lengths have the same bits in both directions on a rotated map") {
+TEST_CASE(
+    "crossings: on a rotated map, lengths inside walls have the same bits in both directions of a "
+    "link") {
     OccupancyGrid grid = rooms();
     grid.origin = {-3.3, 7.1, 0};
     grid.yaw = 0.7;
@@ -207,7 +209,9 @@ TEST_CASE("crossings: lengths have the same bits in both directions on a rotated
     }
 }
 
-TEST_CASE("crossings: a map that is rotated and shifted gives the same results as before") {
+TEST_CASE(
+    "crossings: if map and link are rotated and shifted together, lengths and clearances stay "
+    "equal") {
     OccupancyGrid grid = rooms();
     const Scene plain(grid);
     grid.origin = {2, -1, 0};
@@ -242,7 +246,8 @@ TEST_CASE("crossings: for ends as far as 1e9 m away, crossings are finite and in
     CHECK(scene.crossings({0.5, 0.5}, {0.5, 0.5}).empty());
 }
 
-TEST_CASE("wall length: if a largest length is given, a result above it is only a lower bound") {
+TEST_CASE(
+    "wall length: if an upper limit is given, a result above this limit is only a lower bound") {
     const Scene scene(drawn_map({".#.#.#.#"}));
     CHECK(near(scene.wall_length({0, 0.5}, {8, 0.5}), 4));
     CHECK(scene.wall_length({0, 0.5}, {8, 0.5}, 4.5) == scene.wall_length({0, 0.5}, {8, 0.5}));
@@ -323,7 +328,8 @@ TEST_CASE("passable: a robot fits through a corridor of exactly its own width, a
         }
 }
 
-TEST_CASE("passable: the result agrees with the distance sampled along the segment") {
+TEST_CASE(
+    "passable: the answer agrees with distances to the nearest wall, sampled along the segment") {
     const Scene scene(drawn_map({".......", "..##...", "..##...", "......."}));
     test::Draw draw(8);
     constexpr double walked_error = 3e-3;  // spacing of the walk over half a metre of distance

@@ -172,7 +172,9 @@ TEST_CASE("wall index: crossings equal those found by testing all occupied cells
     });
 }
 
-TEST_CASE("wall index: the search by tiles gives the same bits as testing every rectangle") {
+TEST_CASE(
+    "wall index: searching walls by tiles gives the same crossings, bit for bit, as testing every "
+    "rectangle") {
     for_random_rays(12, [](const World& world, Ray ray, test::Draw&) {
         if (std::pair(ray.b.u, ray.b.v) < std::pair(ray.a.u, ray.a.v)) std::swap(ray.a, ray.b);
         if (ray.a.u == ray.b.u || ray.a.v == ray.b.v) return;  // on grid lines: see the cells test
@@ -182,7 +184,7 @@ TEST_CASE("wall index: the search by tiles gives the same bits as testing every 
     });
 }
 
-TEST_CASE("wall index: a ray from far away past the corners of tiles misses no tile") {
+TEST_CASE("wall index: a ray that comes from far away and passes corners of tiles misses no wall") {
     test::Draw draw(17);
     const OccupancyGrid grid = test::random_map(draw, 200, 200, 50);
     const WallIndex index = index_of(grid);
@@ -232,7 +234,9 @@ TEST_CASE(
     });
 }
 
-TEST_CASE("wall index: up to a limit the length inside walls is exact, above it a lower bound") {
+TEST_CASE(
+    "wall index: the length inside walls is exact up to a given limit, and a lower bound above "
+    "this limit") {
     for_random_rays(15, [](const World& world, const Ray& ray, test::Draw& draw) {
         const double all = std::numeric_limits<double>::infinity();
         const double exact = world.index.solid_length(ray.a, ray.b, length_of(ray), all);

@@ -88,7 +88,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "wall thickness: 0 outside walls; where two walls cross, the thickness of the thinner one") {
+    "wall thickness: the value is 0 outside walls; where two walls cross, the thinner wall "
+    "counts") {
     OccupancyGrid grid = with_wall(0.1, 0);
     for (std::size_t i = 0; i < grid.cells.size(); ++i) {
         if (i % side >= 90 && i % side < 110) grid.cells[i] = Cell::occupied;  // 40 cm, upright

@@ -182,7 +182,8 @@ TEST_CASE("walls: a wall drawn as an outline counts as one wall, with its drawn 
 }
 
 TEST_CASE(
-    "walls: the outline of a closed room counts as one wall, two lines with open ends as two") {
+    "walls: two lines that outline a wall of a room count as one wall, two lines with open ends as "
+    "two walls") {
     for (const double angle : {0.0, 20.0}) {
         Drawing room{angle * degree,
                      {{-4, -3, 4, -2.8}, {-4, 2.8, 4, 3}, {-4, -3, -3.8, 3}, {3.8, -3, 4, 3}}};
@@ -235,7 +236,9 @@ TEST_CASE(
         }
 }
 
-TEST_CASE("walls: a ray through the stepped cells of a slanted wall pays the crossing loss once") {
+TEST_CASE(
+    "walls: for a ray through the stepped cells of a slanted wall, the crossing loss is added "
+    "once") {
     const double thick = 0.15;
     const Drawing drawing{20 * degree, {{-5.5, -thick / 2, 5.5, thick / 2}}};
     const Scene scene(drawing.map(0.05));

@@ -238,7 +238,7 @@ TEST_CASE("normal quantile: the quantile agrees with Boost.Math from tail to tai
     CHECK(normal_quantile(0x1p-53) > -8.21);
 }
 
-TEST_CASE("below: below(n) gives every value equally often, and never n") {
+TEST_CASE("below: below(n) gives every value from 0 to n - 1 equally often") {
     std::array<double, 10> count{};
     for (std::size_t i = 0; i < samples; ++i) ++count.at(below(nth_key(i), count.size()));
     const double expected = static_cast<double>(samples) / 10;
@@ -281,7 +281,7 @@ TEST_CASE("random: incrementing any field of a key flips each bit of the result 
     }
 }
 
-TEST_CASE("random: keys with small numbers never give equal random numbers") {
+TEST_CASE("random: different keys made of small numbers never give the same random number") {
     std::vector<std::uint64_t> all;
     for (std::size_t i = 0; i < samples; ++i) {
         all.push_back(bits(small_key(i)));
@@ -297,7 +297,8 @@ TEST_CASE("random: keys with small numbers never give equal random numbers") {
 }
 
 TEST_CASE(
-    "pair draws: the draw of a pair has the same bits in both directions, with every compiler") {
+    "pair draws: the random number of a pair of robots has the same bits in both directions and "
+    "with every compiler") {
     const PairDraws draws(7, 3, Purpose::link_shadowing);
     const std::uint64_t a = name_key("r0"), b = name_key("base");
     const std::uint64_t stream = combine(7, 3 << 16 | 2);

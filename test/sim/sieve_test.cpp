@@ -11,7 +11,7 @@
 namespace sieve_test {
 using namespace rovernet;
 
-TEST_CASE("sieve: selected values are kept in order, for any number of values and calls") {
+TEST_CASE("sieve: exactly the selected values are kept, in order, for any number of values") {
     test::Draw draw(3);
     Sieve<int> sieve;
     CHECK(sieve.kept().empty());
@@ -29,7 +29,8 @@ TEST_CASE("sieve: selected values are kept in order, for any number of values an
     }
 }
 
-TEST_CASE("sieve: values written directly into room() are kept up to the end given to keep_to()") {
+TEST_CASE(
+    "sieve: values written into the memory from room() are kept up to the end given to keep_to()") {
     Sieve<int> sieve;
     for (const std::size_t room : {0UL, 1UL, 5UL, 100UL, 3UL, 1000UL}) {
         sieve.put(-1, true);

@@ -32,7 +32,7 @@ TEST_CASE("power to level: powers of real radios have their published levels") {
     CHECK(near(to_dbm({30}).value, 14.771212547196624, one_ulp_at_16));
 }
 
-TEST_CASE("power to level: ten times the power is 10 dB, exactly") {
+TEST_CASE("power to level: 1, 10 and 1000 mW are exactly 0, 10 and 30 dBm") {
     CHECK(to_dbm({1}).value == 0);
     CHECK(to_dbm({10}).value == 10);
     CHECK(to_dbm({1000}).value == 30);

@@ -120,8 +120,9 @@ TEST_CASE(
     CHECK(all.list[1].gaps.failed == 3);
     CHECK(all.list[2].gaps.failed == 4);
     CHECK(coverage_text(all) ==
-          "averaged over traffic.0.every; the mean of reach leaves out 4 of 8 cells (a cell is one "
-          "replication at one value of each of these keys), because some rows have no value there; "
+          "averaged over traffic.0.every; the mean of reach leaves out 4 of 8 cells, because some "
+          "rows have no value in these cells (a cell is one replication at one value of each key "
+          "that is averaged over); "
           "7 runs failed");
     // Held at one value, nothing is averaged over, and each row has its own n.
     const Answers held = answers(store, {.group_by = by_ttl, .where = {{"traffic.0.every", "2"}}});
@@ -150,7 +151,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("balance: a single row that lacks runs is not averaged, either") {
+TEST_CASE("balance: even a single row of results is not averaged if runs are missing") {
     const TemporaryFolder folder;
     const Store store = made(folder.path("s.db"), biased);
     CHECK(has(refusal(store, {.group_by = by_ttl, .where = {{"routing.ttl", "8"}}}),
@@ -158,7 +159,7 @@ TEST_CASE("balance: a single row that lacks runs is not averaged, either") {
 }
 
 TEST_CASE(
-    "balance: replications that are missing in all rows leave the rows comparable, and are "
+    "balance: if the same replications are missing in all rows, the rows are averaged, and this is "
     "reported") {
     const TemporaryFolder folder;
     const Store store = made(folder.path("s.db"), [](int, int, int r) {

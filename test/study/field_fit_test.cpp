@@ -117,7 +117,9 @@ void compare(const Model& model, const std::vector<Place>& first, const std::vec
 
 }  // namespace
 
-TEST_CASE("field: nine models are fitted on one drive through a flat and checked on another") {
+TEST_CASE(
+    "field data: nine models fitted to levels in a flat have the coefficients and errors of the "
+    "test vectors") {
     const auto cells = measured("flat/cells.csv");
     if (!cells) return;
     std::vector<Place> first, second;
@@ -142,7 +144,9 @@ TEST_CASE("field: nine models are fitted on one drive through a flat and checked
     }
 }
 
-TEST_CASE("field: five models are fitted on one day in a laboratory and checked on another") {
+TEST_CASE(
+    "field data: five models fitted to levels in a laboratory have the coefficients and errors of "
+    "the test vectors") {
     const auto links = measured("lab/links.csv"), sensors = measured("lab/sensors.csv");
     if (!links || !sensors) return;
     std::map<std::string, std::pair<std::uint32_t, Vec3>> receivers;

@@ -118,7 +118,9 @@ TEST_CASE("least squares: coefficients and their errors equal those of numpy") {
     CHECK(compared == 10);
 }
 
-TEST_CASE("least squares: a negative wall loss is fixed at 0, and the rest is fitted again") {
+TEST_CASE(
+    "least squares: a negative wall loss is fixed at 0, and the other coefficients are fitted "
+    "again") {
     const Vectors expected("fit_nonnegative.csv");
     const Observations data = observations(
         [](const Link& l) {
@@ -137,7 +139,7 @@ TEST_CASE("least squares: a negative wall loss is fixed at 0, and the rest is fi
     CHECK(held.at_bound == std::vector<bool>{false, false, true, false});
 }
 
-TEST_CASE("least squares: a column that no row determines is omitted and marked") {
+TEST_CASE("least squares: a coefficient that the data do not determine is omitted and marked") {
     Observations data{.columns = 3};
     for (int i = 0; i < 20; ++i) {
         const double x = i;
@@ -162,7 +164,9 @@ TEST_CASE("least squares: invalid input is refused") {
     CHECK_THROWS_AS(least_squares(data, {true, false}), std::invalid_argument);
 }
 
-TEST_CASE("tobit: fits with and without unseen far links equal those of another program") {
+TEST_CASE(
+    "tobit: fits with and without far links that are too weak to be seen equal those of another "
+    "program") {
     const Vectors links("fit_censored_links.csv"), expected("fit_censored.csv");
     constexpr double floor = -88;  // [dBm]
     Observations data{.columns = 2}, seen{.columns = 2};
@@ -182,7 +186,7 @@ TEST_CASE("tobit: fits with and without unseen far links equal those of another 
     CHECK(near(plain.coefficients[1]->value, expected.number(1, "exponent"), 1e-6));
 }
 
-TEST_CASE("tobit: without unseen rows the fit equals least squares") {
+TEST_CASE("tobit: if no value is too weak to be seen, the fit equals least squares") {
     Observations data{.columns = 2};
     std::vector<bool> unseen;
     for (int i = 0; i < 30; ++i) {
@@ -212,7 +216,7 @@ TEST_CASE(
     CHECK(near(fit.range.value, expected.number(0, "range_m"), 1e-9));
 }
 
-TEST_CASE("disc fit: a sample with all links up, or with none, is fitted") {
+TEST_CASE("disc fit: samples in which all links are up, or no link is up, can be fitted") {
     CHECK(fit_disc({{2, true}, {8, true}}).range.value == 8);
     CHECK(fit_disc({{2, false}, {8, false}}).range.value == 1);
     CHECK(fit_disc({{2, true}, {8, false}}).range.value == 4);

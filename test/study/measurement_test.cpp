@@ -94,7 +94,8 @@ metrics = ["delivery_ratio.at.C", "messages.at.C"]
     CHECK(values["messages.at.C"] == 3.0);
 }
 
-TEST_CASE("measurement: runs that alternate between scenes equal separate runs") {
+TEST_CASE(
+    "measurement: runs that alternate between two maps give the same results as separate runs") {
     test::TemporaryFolder folder;
     folder.write("one.pgm", map_with_door(1));
     folder.write("two.pgm", map_with_door(6));

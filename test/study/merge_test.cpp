@@ -73,7 +73,7 @@ TEST_CASE("merge: runs that a killed process left in the journal of its store ar
     }
 }
 
-TEST_CASE("merge: a shard that is being written stays unchanged") {
+TEST_CASE("merge: a shard that is still open for writing is not merged, and stays unchanged") {
     const TemporaryFolder folder;
     Store store = store_with(folder.path("s.db"), 0);
     const Store shard = store_with(folder.path("1.db"), 1);
@@ -93,7 +93,7 @@ TEST_CASE("merge: a shard without runs is removed silently") {
     CHECK(store.runs().size() == 2);
 }
 
-TEST_CASE("merge: a file that is not a shard of this study is refused, and stays") {
+TEST_CASE("merge: a file that is not a shard of this study is refused and not removed") {
     const TemporaryFolder folder;
     Store store = store_with(folder.path("s.db"), 0);
     CHECK(throws_input_error(store, folder.path("none.db")));

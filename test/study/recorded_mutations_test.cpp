@@ -250,9 +250,11 @@ TEST_CASE("missing, short, doubled or wrong names in a recorded trace are report
     CHECK(refusal(attachment("robots.txt", "B\nA\n")) ==
           "robot 0 is named \"B\" in the trace, but \"A\" in the scenario of the trace");
     CHECK(refusal(right + attachment("robots.txt", "A\nC\n")) ==
-          "this trace contains two different files with the name robots.txt; expected one");
+          "this trace contains two different files with the name robots.txt; expected one file of "
+          "this name");
     CHECK(refusal(right + attachment("x/a", "1") + attachment("x/a", "2")) ==
-          "this trace contains two different files with the name x/a; expected one");
+          "this trace contains two different files with the name x/a; expected one file of this "
+          "name");
     CHECK(refusal(right + attachment("x", "1") + attachment("x/a", "2")) ==
           "the file x/a, which this trace contains, cannot be stored in a temporary folder");
 }

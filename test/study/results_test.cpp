@@ -45,7 +45,7 @@ constexpr double rounding = 1e-9;  // of sums of a few numbers below 1e3
 
 }  // namespace
 
-TEST_CASE("results: by default a row is one point, with mean and interval") {
+TEST_CASE("results: by default each point of a study has a row with mean and interval") {
     const TemporaryFolder folder;
     const auto list = answers(made(folder.path("s.db")), {}).list;
     REQUIRE(list.size() == 4);
@@ -59,7 +59,7 @@ TEST_CASE("results: by default a row is one point, with mean and interval") {
 }
 
 TEST_CASE(
-    "results: the error for a value that no point has lists the existing values in the study's "
+    "results: if no point has the given value, the error lists the existing values in the study's "
     "order") {
     const TemporaryFolder folder;
     Store store = Store::open_to_write(folder.path("s.db"));
@@ -84,7 +84,8 @@ TEST_CASE(
         std::invalid_argument);
 }
 
-TEST_CASE("results: a ratio has an interval by STaR-Bets within its bounds, or t on request") {
+TEST_CASE(
+    "results: the interval of a ratio is by STaR-Bets, at most 1, or by Student's t on request") {
     const TemporaryFolder folder;
     Store store = Store::open_to_write(folder.path("s.db"));
     store.set_points({{0, "p", {}}});
@@ -119,7 +120,7 @@ TEST_CASE("results: a row has one value per replication, which is the mean over 
     CHECK(list[1].values.at(2) == 107);
 }
 
-TEST_CASE("results: conditions select points, and a condition without a point is an error") {
+TEST_CASE("results: conditions select points, and a condition that no point meets is an error") {
     const TemporaryFolder folder;
     const Store store = made(folder.path("s.db"));
     const auto list =
@@ -132,7 +133,9 @@ TEST_CASE("results: conditions select points, and a condition without a point is
     CHECK_THROWS_AS(answers(store, {.where = {{"radio.pwr", "1"}}}), std::invalid_argument);
 }
 
-TEST_CASE("results: a metric that no run defines has no mean, and its undefined runs are counted") {
+TEST_CASE(
+    "results: a metric without a value in any run has no mean, and runs without a value are "
+    "counted") {
     const TemporaryFolder folder;
     const auto list = answers(made(folder.path("s.db")), {.metrics = {"hops_mean"}}).list;
     CHECK(list[0].gaps.undefined == 3);
@@ -147,7 +150,7 @@ TEST_CASE("results: if a quantile is requested, it replaces the mean") {
     CHECK_FALSE(list[0].low);  // three values are too few for an interval
 }
 
-TEST_CASE("results: an unknown name is an error with a suggestion") {
+TEST_CASE("results: an unknown metric or key is an error with a suggestion") {
     const TemporaryFolder folder;
     const Store store = made(folder.path("s.db"));
     CHECK_THROWS_WITH_AS(answers(store, {.metrics = {"reech"}}),

@@ -130,7 +130,7 @@ TEST_CASE(
                 "/100%a/s.db.slurm/merge.sh"});
 }
 
-TEST_CASE("slurm: the scripts pass all words unchanged, whatever they contain") {
+TEST_CASE("slurm: the scripts pass all arguments to rovernet unchanged, whatever they contain") {
     for (const std::string name : {"plain", "two words", "it's", "\"a\" $HOME `id`", "\\ %a;#&*"}) {
         CAPTURE(name);
         const TemporaryFolder folder;

@@ -132,7 +132,7 @@ TEST_CASE("store: a failed run may be replaced, a finished run may not") {
     CHECK(store.values("reach")[0].value == 0.5);
 }
 
-TEST_CASE("store: points keep their runs and get new numbers when the study grows") {
+TEST_CASE("store: if the study grows, its points keep their runs but get new numbers") {
     const TemporaryFolder folder;
     Store store = two_points(folder.path("s.db"));
     store.record(run("r0", 0, 0, 0.5));
@@ -213,7 +213,7 @@ TEST_CASE("store: an SQL query is answered, and may not change anything") {
     CHECK(store.runs().size() == 1);
 }
 
-TEST_CASE("store: an SQL query reads, and cannot write, attach or set anything") {
+TEST_CASE("store: an SQL query can read, but cannot write, attach a file or change a setting") {
     const TemporaryFolder folder;
     const std::string path = folder.path("s.db"), other = folder.path("other.db");
     { two_points(path); }
@@ -240,7 +240,8 @@ TEST_CASE("store: an SQL query reads, and cannot write, attach or set anything")
 }
 
 TEST_CASE(
-    "merge: copies runs that the target lacks or has as failed, and keeps its finished runs") {
+    "merge: runs that the target lacks, or that failed there, are copied; finished runs of the "
+    "target stay") {
     const TemporaryFolder folder;
     const std::string shard = folder.path("shard.db");
     {

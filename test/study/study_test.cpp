@@ -174,7 +174,7 @@ TEST_CASE("study: an unknown metric is refused, with line, column and a suggesti
     CHECK(text.find("; did you mean \"delivery_ratio\"") != std::string::npos);
     CHECK(text.size() < 400);  // not every metric of every robot
     CHECK(error_of(two_robots + "[study]\nmetrics = [\"airtime_s/messages\"]")
-              .find("only the commands results and plot compute") != std::string::npos);
+              .find("only `rovernet results` and `rovernet plot` compute") != std::string::npos);
 }
 
 TEST_CASE(
@@ -192,7 +192,7 @@ TEST_CASE(
     CHECK(error("reach") == "no error");
 }
 
-TEST_CASE("study: a point's id changes exactly if a change affects results") {
+TEST_CASE("study: a point's id changes if, and only if, a change affects the results") {
     const std::string id = id_of(two_robots);
     CHECK(id.size() == 16);
     CHECK(id_of(two_robots) == id);
@@ -232,7 +232,7 @@ vary."routing.protocol" = ["flood", "aodv"]
           std::string::npos);
 }
 
-TEST_CASE("study: a different map under the same name is a different point") {
+TEST_CASE("study: a different map under the same name gives a different point") {
     const TemporaryFolder folder;
     const std::string path = folder.write(
         "s.toml", "[scene]\nmap = \"m.pgm\"\nsize = [\"20 m\", \"20 m\"]\n" + two_robots);
@@ -244,7 +244,7 @@ TEST_CASE("study: a different map under the same name is a different point") {
     CHECK(id("255 255 255 255") != id("255 255 255 0"));
 }
 
-TEST_CASE("study: different materials in the file beside the map are a different point") {
+TEST_CASE("study: different materials in the file beside the map give a different point") {
     const TemporaryFolder folder;
     folder.write("m.pgm", "P2 2 2 255 0 255 255 255");
     const std::string path = folder.write(
@@ -277,7 +277,7 @@ TEST_CASE(
           of_first->front().scene);
 }
 
-TEST_CASE("study: a different movement file under the same name is a different point") {
+TEST_CASE("study: a different movement file under the same name gives a different point") {
     const TemporaryFolder folder;
     const std::string path =
         folder.write("s.toml", "[movement]\nfile = \"m.tcl\"\n[propagation]\nmodel = \"friis\"\n");

@@ -185,7 +185,7 @@ TEST_CASE("sweep: the same replication at two points has the same robots at the 
     CHECK(differ);  // from one replication to the next
 }
 
-TEST_CASE("sweep: more values and replications extend the existing runs") {
+TEST_CASE("sweep: after values and replications are added, only the missing runs are made") {
     const Bench bench(scattered + study_keys);
     bench.sweep();
     const SweepResult more =
@@ -199,7 +199,7 @@ TEST_CASE("sweep: more values and replications extend the existing runs") {
     CHECK(bench.csv() == whole.csv());
 }
 
-TEST_CASE("sweep: a different scenario or version is not mixed with existing runs") {
+TEST_CASE("sweep: runs of a different scenario or version are not mixed with existing runs") {
     const Bench bench(scattered + study_keys);
     bench.sweep();
     const std::string csv = bench.csv();
@@ -256,7 +256,7 @@ TEST_CASE("sweep: a failed run is stored with its reason, and repeated by the ne
     CHECK(fast.stopped == (fast.progress.left > 0));
 }
 
-TEST_CASE("sweep: a run that takes too long is tried twice, and affects only itself") {
+TEST_CASE("sweep: a run that takes too long fails, and does not affect other runs") {
     const Bench bench(scattered + "[[traffic]]\nfrom = \"r0\"\nsize = \"9 B\"\nevery = \"1 ms\"\n" +
                       "[study]\nvary.\"scenario.duration\" = [\"10 ms\", \"1e8 s\"]\n");
     const SweepResult result = bench.sweep({.workers = 2, .limits = {.timeout_s = 3, .memory = {}}},
@@ -267,7 +267,8 @@ TEST_CASE("sweep: a run that takes too long is tried twice, and affects only its
 }
 
 TEST_CASE(
-    "sweep: after a stop, running runs are stored, and a later sweep completes the same result") {
+    "sweep: a stopped sweep can be continued, and gives the same result as an uninterrupted "
+    "sweep") {
     const Bench bench(scattered + study_keys), whole(scattered + study_keys);
     whole.sweep();
     SweepOptions options{.workers = 1};
@@ -287,7 +288,7 @@ TEST_CASE(
     CHECK(at_once.csv() == whole.csv());
 }
 
-TEST_CASE("sweep: all shards together give the whole study") {
+TEST_CASE("sweep: all shards (parts of a study) together give the whole study") {
     const Bench bench(scattered + study_keys);
     std::uint64_t finished = 0;
     for (std::uint64_t i = 0; i < 3; ++i) {

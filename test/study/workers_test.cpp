@@ -42,7 +42,7 @@ std::map<std::uint64_t, TaskEnd> all(Workers& workers, std::uint64_t tasks) {
 
 }  // namespace
 
-TEST_CASE("workers: every task is answered once, by at most the given number of processes") {
+TEST_CASE("workers: every task gets one result, from at most the given number of processes") {
     Workers workers(3, [](std::uint64_t task) { return fmt::format("{} {}", task, getpid()); }, {});
     const auto ends = all(workers, 100);
     std::map<std::string, int> by_process;
@@ -64,7 +64,7 @@ TEST_CASE("workers: a result of many megabytes arrives complete") {
     CHECK(ends.at(1).text == std::string(20'000'000, 'b'));
 }
 
-TEST_CASE("workers: an exception ends the task, and its process continues") {
+TEST_CASE("workers: a task that throws an exception fails, but the worker process continues") {
     Workers workers(1,
                     [](std::uint64_t task) -> std::string {
                         if (task == 1) throw std::runtime_error("no such luck");
@@ -77,7 +77,9 @@ TEST_CASE("workers: an exception ends the task, and its process continues") {
     CHECK(ends.at(0).text == ends.at(2).text);
 }
 
-TEST_CASE("workers: a crash of a task affects no other task, and the error has its last output") {
+TEST_CASE(
+    "workers: a crash of a task affects no other task, and the error contains the task's last "
+    "output") {
     Workers workers(1,
                     [](std::uint64_t task) -> std::string {
                         if (task == 1) {

@@ -97,7 +97,8 @@ TEST_CASE(
     CHECK(run.values().saved_rebroadcasts == 1.0);
 }
 
-TEST_CASE("metrics: a message in the reused table entry of an old message has no old relays") {
+TEST_CASE(
+    "metrics: relays of an old message do not count for a new message in the same table entry") {
     LineOfFour run;
     REQUIRE(run.messages.release(MessageId{0}));
     const auto m = run.send(at(9'000), a, 2);
@@ -111,8 +112,8 @@ TEST_CASE("metrics: a message in the reused table entry of an old message has no
 }
 
 TEST_CASE(
-    "metrics: frames that arrive at a radio that is off, and copies that wait to be sent by it, "
-    "are drops of reason SLP") {
+    "metrics: frames that arrive at a radio that is off, or wait to be sent by it, are drops of "
+    "reason SLP") {
     LineOfFour run;
     const MessageId m{0};
     run.receive(frame(m, b, 1, 2), {{at(4'000), d, Fate::off, false}});
@@ -201,7 +202,8 @@ TEST_CASE("metrics: every reason of a drop is counted under its own code") {
     });
 }
 
-TEST_CASE("metrics: a control packet in the reused table entry of a message has no old counts") {
+TEST_CASE(
+    "metrics: counts of a message do not count for a control packet in the same table entry") {
     Measured run;
     for (int i = 0; i < 3; ++i) run.place(Vec3{10.0 * i, 0, 0});
     const auto m = run.send(at(0), a, 2, 64, 2);
@@ -269,7 +271,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("metrics: failed attempts to send a routed unicast over a link are no losses") {
+TEST_CASE("metrics: failed attempts to send a routed unicast over a link do not count as losses") {
     for (const bool is_routed : {false, true}) {
         CAPTURE(is_routed);
         Stream run;

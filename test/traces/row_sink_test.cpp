@@ -159,7 +159,7 @@ TEST_CASE("rows: the cells of a table have the values of the records") {
     CHECK(rows->table(kind_of<Moved>()).size() == 0);
 }
 
-TEST_CASE("rows: kinds are found by the names of their records, and a misspelt name is refused") {
+TEST_CASE("rows: a kind of record is found by its name, and a misspelt name is refused") {
     CHECK(record_named("sent") == kind_of<Sent>());
     CHECK(record_named("no_way") == kind_of<NoWay>());
     CHECK(record_named("control_received") == kind_of<ControlReceived>());

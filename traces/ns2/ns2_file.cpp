@@ -87,7 +87,7 @@ void Ns2File::skip_long_line() {
 const Ns2Line* Ns2File::next() {
     while (next_text()) {
         if (text_.size() > longest_line) {
-            count_refused(1, "found a line of more than 64 KiB");
+            count_refused(1, "found a line of more than 64 KiB, expected a line of an ns-2 trace");
             continue;
         }
         line_ = parse_ns2_line(text_);

@@ -86,7 +86,7 @@ FollowedMessage Ns2Follower::way(const std::string& trace) const {
             least_ ? fmt::format("expected the id of a message, from {} to {}", *least_, most_)
                    : "this trace has no messages";
         throw InputError({.source = trace},
-                         fmt::format("found no message {}; {}", way_.uid, known));
+                         fmt::format("found no message with the id {}; {}", way_.uid, known));
     }
     FollowedMessage way = way_;
     std::map<std::uint32_t, std::vector<std::uint32_t>> children;

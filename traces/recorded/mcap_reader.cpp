@@ -168,8 +168,8 @@ std::optional<McapMessages> McapReader::unpack(const McapRecord& chunk) {
     const std::string_view compression = from.text();
     const std::string_view packed = from.take(from.fixed<std::uint64_t>());
     const auto broken = [&](std::string_view why) {
-        tell(fmt::format("the chunk at byte {} ({:.6f} to {:.6f} s) is damaged: {}", chunk.offset,
-                         static_cast<double>(messages.first) / 1e9,
+        tell(fmt::format("the chunk of the trace at byte {} ({:.6f} to {:.6f} s) is damaged: {}",
+                         chunk.offset, static_cast<double>(messages.first) / 1e9,
                          static_cast<double>(messages.last) / 1e9, why));
         return std::nullopt;
     };

@@ -142,9 +142,10 @@ void RecordedReader::read_attachment(std::string_view content) {
     }
     const auto differ = [&](bool is_so) {
         if (is_so)
-            fail(fmt::format(
-                "this trace contains two different files with the name {}; expected one",
-                file.name));
+            fail(
+                fmt::format("this trace contains two different files with the name {}; expected "
+                            "one file of this name",
+                            file.name));
     };
     if (file.name == names_file) {
         std::vector<std::string> names = lines_of(file.content);
@@ -222,8 +223,8 @@ const Record* RecordedReader::next() {
             const std::string_view content = chunk_.take(chunk_.fixed<std::uint64_t>());
             if (chunk_.failed() || (opcode == McapOpcode::message && !take_message(content))) {
                 file_.tell(
-                    fmt::format("the chunk at byte {} has a damaged message after {:.6f} s: the "
-                                "rest of the chunk is left out",
+                    fmt::format("the chunk of the trace at byte {} has a damaged message after "
+                                "{:.6f} s: the rest of the chunk is left out",
                                 chunk_offset_, seconds(now_)));
                 chunk_ = ByteReader({});
                 next_header_ = {};

@@ -128,7 +128,7 @@ TEST_CASE("routes: the error for an invalid time, robot or protocol states what 
         return ended.err;
     };
     CHECK(refusal({"--at", "9.1s"}, 2)
-              .find("--at 9.1s: expected a time of the run, which ends at "
+              .find("--at 9.1s: expected a time within the run, which ends at "
                     "9 s") != std::string::npos);
     CHECK(command(folder, {"routes", file, "--at", "9s"}).exit == 0);
     CHECK(refusal({"--at", "5s", "--robot", "n5"}, 2).find("did you mean") != std::string::npos);

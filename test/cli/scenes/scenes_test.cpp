@@ -224,7 +224,8 @@ range = "10 m"
     CHECK(scene["robots"][3]["x_m"] == 99.0);
 }
 
-TEST_CASE("scene: the largest diameter of all connected parts is printed, in any robot order") {
+TEST_CASE(
+    "scene: the largest diameter of the connected parts is printed, whatever the robots' order") {
     const TemporaryFolder folder;
     folder.write("parts.toml", R"(robot = [{ name = "lone", at = ["500 m", "0 m"] },
         { name = "c", at = ["18 m", "0 m"] }, { name = "x", at = ["99 m", "0 m"] },
@@ -259,7 +260,8 @@ TEST_CASE("worlds: a Stage world is accepted as FILE by every command") {
     CHECK(command(folder, {"run", file, "--out", folder.path("out")}).exit == 0);
 }
 
-TEST_CASE("worlds: the error for a missing bitmap lists paths tried; --bitmap replaces the file") {
+TEST_CASE(
+    "worlds: the error for a missing bitmap lists the paths tried; --bitmap gives another file") {
     const TemporaryFolder folder;
     folder.write("other.png", hall_picture());
     folder.write("w.world", world);

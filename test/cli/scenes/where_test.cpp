@@ -42,7 +42,7 @@ std::vector<std::string> lines_of(const std::string& text) {
 }  // namespace
 
 TEST_CASE(
-    "links --history --places: changes have the positions of both robots, in CSV and in JSON") {
+    "links --history --places: each link change is printed with the positions of both robots") {
     const TemporaryFolder folder;
     folder.write("pair.toml", pair);
     const std::vector<std::string> asked = {

@@ -137,7 +137,7 @@ TEST_CASE("advise: at the end of the time budget or at Ctrl-C, the preliminary a
 }
 
 TEST_CASE(
-    "advise: without --no-cost, prints the CPU time of each model and draws error against cost") {
+    "advise: unless --no-cost is given, prints CPU times of models, and draws error against cost") {
     const Advised advised;
     auto words = advised.words({"-o", advised.folder.path("advice.svg")});
     std::erase(words, "--no-cost");

@@ -127,7 +127,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "compare --protocols: a printed scenario of aodv with hello = 0 s is read without an error") {
+    "compare --protocols: a printed scenario with `aodv` and hello = 0 s is read without an "
+    "error") {
     const TemporaryFolder folder;
     const std::string file = folder.write("s.toml", three);
     const Ended printed = command(folder, {"run", file, "--set", "routing.protocol=aodv", "--set",
@@ -142,9 +143,9 @@ TEST_CASE(
 TEST_CASE("compare --protocols: a notice says if protocols count unfinished unicasts differently") {
     const TemporaryFolder folder;
     const std::string notice =
-        "some unicasts are still on their way when a run ends. With flood (3 such unicasts in all "
-        "runs), delivery_ratio leaves these unicasts out; with aodv, delivery_ratio counts them as "
-        "not delivered";
+        "some unicasts are still on their way when a run ends. The delivery_ratio of flood leaves "
+        "out these unicasts (3 in all runs); the delivery_ratio of aodv counts them as not "
+        "delivered";
     const auto errors = [&](const std::string& stop, const std::string& names) {
         return command(folder, protocols(folder.write("s.toml", three + stop), names)).err;
     };
@@ -179,7 +180,7 @@ TEST_CASE("compare --protocols: unknown names, or fewer than two protocols, are 
     CHECK(refusal(words).find("excludes") != std::string::npos);
 }
 
-TEST_CASE("compare: a study that varies the protocol is compared without --protocols") {
+TEST_CASE("compare: a study that varies the protocol needs no option --protocols") {
     const TemporaryFolder folder;
     const std::string file = folder.write(
         "s.toml",

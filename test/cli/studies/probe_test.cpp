@@ -45,7 +45,8 @@ at = ["14 m", "4.5 m"]
 }  // namespace
 
 TEST_CASE(
-    "probe: under the model disc, effects of perturbations on links have a distance and no level") {
+    "probe: with the model `disc`, the effect on a link is given with a distance, without a "
+    "level") {
     const TemporaryFolder folder;
     const Ended ended = command(folder, {"probe", folder.write("rim.toml", rim)});
     CHECK(ended.exit == 0);

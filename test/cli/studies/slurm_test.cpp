@@ -126,8 +126,7 @@ TEST_CASE("sweep on Slurm: the tasks and their merge give the same results as a 
 }
 
 TEST_CASE(
-    "sweep on Slurm: the missing shard of a lost task is reported, and the same command repeats "
-    "its runs") {
+    "sweep on Slurm: if a task is lost, this is reported, and the same command repeats its runs") {
     const Cluster cluster;
     cluster.folder.write("bin/lost", "1");
     CHECK(cluster.submit().exit == 0);
@@ -216,7 +215,7 @@ TEST_CASE("sweep on Slurm: an error says that sbatch is missing, or that it refu
     cluster.folder.write("bin/refused", "--dependency");
     const Ended half = cluster.submit();
     CHECK(half.exit == 1);
-    CHECK(has(half.err, "the tasks are submitted as job 77, but "));
+    CHECK(has(half.err, "the tasks were submitted as job 77, but "));
     // What it says to call is right.
     const std::string call = half.err.substr(half.err.find("\n  bash ") + 1);
     CHECK(Process(cluster.folder, {"-c", call}, "/bin/bash").wait().exit == 0);

@@ -92,7 +92,8 @@ void wait_a_moment() { std::this_thread::sleep_for(std::chrono::milliseconds{1})
 
 }  // namespace
 
-TEST_CASE("sweep, compare: the option --set of a key that the study varies gives a notice") {
+TEST_CASE(
+    "sweep, compare: --set of a key that the study varies has no effect, and a notice says so") {
     const Place place;
     const std::string set = "propagation.range=7 m", seed = "scenario.seed=2";
     const Ended ended = command(
@@ -127,9 +128,7 @@ TEST_CASE("sweep: a dry run lists every point and runs nothing") {
     CHECK(json["runs"] == 200);
 }
 
-TEST_CASE(
-    "sweep: if points do not reach the required precision, the exit code is 4, and the precision "
-    "of each is printed") {
+TEST_CASE("sweep: if points miss the required precision, they are listed, and the exit code is 4") {
     const Place place;
     const std::vector<std::string> wanted = {"sweep",       place.file, "--replications",     "2",
                                              "--precision", "0.01",     "--max-replications", "4"};
@@ -168,8 +167,7 @@ TEST_CASE(
     CHECK(command(place.folder, {"results", place.store(), "--interval", "z"}).exit == 2);
 }
 
-TEST_CASE(
-    "sweep: results and explain print the runs of a study; the printed command repeats a run") {
+TEST_CASE("sweep: `results` and `explain` print a study's runs, and a command that repeats a run") {
     const Place place;
     const Json made = json_of(place.folder, {"sweep", place.file, "--replications", "6"});
     CHECK(made["finished"] == 30);
@@ -201,14 +199,14 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "sweep: after a sweep with fewer than 5 replications, the command results prints a warning") {
+    "sweep: after a sweep with fewer than 5 replications, the command `results` prints a warning") {
     const Place place;
     command(place.folder, {"sweep", place.file, "--replications", "2"});
     CHECK(command(place.folder, {"results", place.store()}).err.find("fewer than 5 replications") !=
           std::string::npos);
 }
 
-TEST_CASE("sweep: Ctrl-C keeps finished runs and prints the command that continues") {
+TEST_CASE("sweep: Ctrl-C keeps finished runs and prints the command that continues the sweep") {
     const Place place;
     const Process sweep(place.folder, {"sweep", place.file, "--workers", "2"});
     while (finished(place.store()).size() < 3) wait_a_moment();
@@ -452,7 +450,8 @@ TEST_CASE("results: options that exclude each other are refused") {
     CHECK(std::count(csv.out.begin(), csv.out.end(), '\n') == 2);
 }
 
-TEST_CASE("compare: other keys of the study have the scenario's value; invalid names are refused") {
+TEST_CASE(
+    "compare: keys that are not compared have the scenario's value; invalid names are refused") {
     const Place place(chatter + "vary.routing.ttl = [1, 2]\n");
     const std::vector<std::string> models = {"compare", place.file, "--replications", "5"};
     const auto with = [&](std::vector<std::string> more) {
@@ -462,8 +461,8 @@ TEST_CASE("compare: other keys of the study have the scenario's value; invalid n
     };
     const Ended made = with({"--models", "disc,friis"});
     CHECK(made.exit == 0);
-    CHECK(made.out.find("fixed as in the file: propagation.range = 30 m, routing.ttl = ") !=
-          std::string::npos);
+    CHECK(made.out.find("kept at the values of the file: propagation.range = 30 m, "
+                        "routing.ttl = ") != std::string::npos);
     const Ended twice = with({"--models", "disc,disc"});
     CHECK(twice.exit == 2);
     CHECK(twice.err.find("propagation.model=disc is listed twice") != std::string::npos);
@@ -514,7 +513,8 @@ TEST_CASE("compare: runs in the store of a sweep are used, and new runs are adde
     CHECK(finished(place.store()).size() == 25);
 }
 
-TEST_CASE("compare: a store's runs of a value are used, and runs of missing values are added") {
+TEST_CASE(
+    "compare: for values that the store has, its runs are used; runs of other values are added") {
     const Place place;
     CHECK(command(place.folder, {"sweep", place.file, "--replications", "3"}).exit == 0);
     const std::size_t before = finished(place.store()).size();
@@ -543,7 +543,8 @@ TEST_CASE("compare: a store's runs of a value are used, and runs of missing valu
     CHECK(joined["rows"].size() == 7);
 }
 
-TEST_CASE("compare: of a store with more replications, only the requested ones are used") {
+TEST_CASE(
+    "compare: if a store has more replications than requested, only the requested ones are used") {
     const Place place;
     CHECK(command(place.folder, {"sweep", place.file, "--replications", "6"}).exit == 0);
     const auto with = [&](const std::vector<std::string>& more) {

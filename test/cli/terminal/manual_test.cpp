@@ -94,7 +94,7 @@ TEST_CASE("bash completion offers commands, subcommands and options") {
     CHECK(std::count(all.begin(), all.end(), "man") == 0);
 }
 
-TEST_CASE("completion supports zsh and fish, and refuses other shells") {
+TEST_CASE("shell completion is available for zsh and fish; other shells are refused") {
     const TemporaryFolder folder;
     CHECK(command(folder, {"completion", "zsh"}).out.starts_with("#compdef rovernet\n"));
     CHECK(command(folder, {"completion", "fish"}).out.find("-l seed") != std::string::npos);

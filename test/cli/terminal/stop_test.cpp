@@ -120,7 +120,7 @@ at = ["1 m", "1 m"]
     CHECK_FALSE(fs::exists(folder.path("out")));
 }
 
-TEST_CASE("a signal ends a replay at once, also while it reads or plays a long log") {
+TEST_CASE("a signal ends a replay immediately, also while it reads or plays a long log") {
     const TemporaryFolder folder;
     std::string text = endless;
     text.replace(text.find("100000000"), 9, "240");
@@ -153,7 +153,7 @@ TEST_CASE("a signal ends a replay at once, also while it reads or plays a long l
     CHECK(stopped(folder, {"replay", inputs, "--verify"}).exit == 130);
 }
 
-TEST_CASE("a signal ends a comparison without a store, and its workers, at once") {
+TEST_CASE("a signal immediately ends a comparison without a store, and its worker processes") {
     const TemporaryFolder folder;
     const std::string file = folder.write("s.toml", endless);
     const Ended ended =

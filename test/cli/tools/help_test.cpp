@@ -60,11 +60,11 @@ TEST_CASE("help: if no page has the words, the error suggests the topic with the
     const Ended ended = command(folder, {"help", "frist-run"});
     CHECK(ended.exit == 2);
     CHECK(has(ended.err,
-              "there is no topic \"frist-run\", and no page has this word; did you mean "
+              "there is no topic \"frist-run\", and no page contains this word; did you mean "
               "\"first-run\"?"));
     CHECK(ended.out.empty());
     CHECK(has(command(folder, {"help", "xyzzy", "plugh"}).err,
-              "no page has one of these words; rovernet help lists all topics"));
+              "no page contains one of these words; rovernet help lists all topics"));
 }
 
 }  // namespace help_test

@@ -26,7 +26,7 @@ bool near(const Json& value, double expected) {
 
 }  // namespace
 
-TEST_CASE("material: losses of 20 cm of concrete equal the test vectors (slab_transmission)") {
+TEST_CASE("material: the losses of 20 cm of concrete equal the test vectors") {
     const Ended ended = material(
         {"concrete", "--thickness", "0.2", "--frequency", "2.4 GHz", "--angle", "30", "--json"});
     REQUIRE(ended.exit == 0);

@@ -75,7 +75,8 @@ TEST_CASE("trace follow needs no scenario to print what an ns-2 trace says about
     CHECK(ended.out.find("was never in range") == std::string::npos);
 }
 
-TEST_CASE("trace: in the folder of a run, the recorded trace is read, or else the trace in text") {
+TEST_CASE(
+    "trace: for a run's folder the recorded trace is read, or if there is none, the text trace") {
     const Run run;
     const std::string folder = run.folder.path("run");
     const auto stats = [&](const std::string& trace) {
@@ -172,9 +173,7 @@ TEST_CASE("trace convert: a recorded trace is converted to pcapng; an ns-2 trace
     CHECK(content(out).size() > 100);
 }
 
-TEST_CASE(
-    "trace: an empty file, or a file compressed by an unknown program, is refused with the "
-    "reason") {
+TEST_CASE("trace: an empty file, or a file compressed by xz or bzip2, is refused with the reason") {
     const TemporaryFolder folder;
     const std::vector<std::pair<std::string, std::string>> files = {
         {"", "the file is empty"},
@@ -221,7 +220,7 @@ TEST_CASE("an ns-2 movement file may begin with the command `set`; a bzip2 file 
     CHECK(toml.err.find("unknown key \"set\"") != toml.err.npos);
 }
 
-TEST_CASE("disc: with the model disc, no command prints a level, a loss or a margin of a link") {
+TEST_CASE("model `disc`: no command prints a level, a loss or a margin of a link") {
     const TemporaryFolder folder;
     const std::string file = folder.write(
         "d.toml",

@@ -27,7 +27,7 @@ std::string error_of(const TemporaryFolder& folder, std::vector<std::string> arg
 
 }  // namespace
 
-TEST_CASE("view writes a page of a scenario, of a run's folder and of its trace") {
+TEST_CASE("view: a page can be made from a scenario, from a run's folder or from a trace") {
     const TemporaryFolder folder;
     const std::string run = folder.path("run"), page = folder.path("page.html");
     REQUIRE(command(folder, {"run", rescue, "--record", "--out", run, "--quiet"}).exit == 0);
@@ -117,11 +117,11 @@ TEST_CASE("view: an invalid input or option is an error that says what to do") {
         "patrol.toml: found 9 robots, but 5 robots in");
     has(error_of(folder, {rescue, "no.toml", "-o", page}, 3), "no.toml: no such file");
     has(error_of(folder, {rescue, rescue, "--with", "radio.power=1 dBm", "-o", page}, 2),
-        "expected one of them");
+        "expected only one of the two");
     has(error_of(folder, {rescue, "--with", "radio.pover=1 dBm", "-o", page}, 2), "radio.pover");
     has(error_of(folder, {page}, 3), "page.html: this is a page, which a browser opens");
     has(error_of(folder, {rescue, "-o", page, "--address", "127.0.0.1:8080"}, 2),
-        "found -o and --address; expected one of them");
+        "found -o and --address; expected only one of the two");
     has(error_of(folder, {rescue, "-o", page, "--listen", "0.0.0.0"}, 2), "found -o and --listen");
     has(error_of(folder, {rescue, "-o", page, "--movements", "no.tcl"}, 2),
         "--movements is for an ns-2 trace, such as run.tr; found");

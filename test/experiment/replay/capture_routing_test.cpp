@@ -374,8 +374,7 @@ TEST_CASE(
     CHECK(found["0\t0\t0x01\t4\t10.0.0.2,10.0.0.5,10.0.0.6,10.0.0.7"] == 0);
 }
 
-TEST_CASE(
-    "tshark reads ARP: operation and addresses equal those in the trace, in 28 bytes after SNAP") {
+TEST_CASE("tshark reads ARP: packets have 28 bytes, and operation and addresses as in the trace") {
     if (!has_tshark()) return;
     const CapturedRun run(two_ways, {"routing.protocol=aodv", "access.arp=true"});
     capture_recorded(run.trace, run.capture);

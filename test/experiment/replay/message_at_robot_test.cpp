@@ -159,7 +159,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "message at a robot: levels and walls in the example rescue equal those of the command link") {
+    "message at a robot: in the example `rescue`, levels and walls equal those of `rovernet "
+    "link`") {
     const std::string file = ROVERNET_EXAMPLES "/rescue/rescue.toml";
     const Run run(file);
     const Scenario scenario = load_scenario(file, {});
@@ -184,7 +185,7 @@ TEST_CASE(
     CHECK(run.says(0, 4).find("wall") != std::string::npos);
 }
 
-TEST_CASE("message at a robot: the answer is the same with and without an index of the trace") {
+TEST_CASE("message at a robot: an index of the trace does not change the answer") {
     // Robots walk and switch off; their frames overlap, and waiting makes messages long.
     const Run run({0, 100, 200, 300}, R"([access]
 model = "csma"

@@ -171,8 +171,8 @@ TEST_CASE("replay of an ns-2 trace: lines that are not in ns-2 format are counte
 }
 
 TEST_CASE(
-    "replay of an ns-2 trace: for a reception out of range, a notice names a power that suffices "
-    "for it") {
+    "replay of an ns-2 trace: for a reception beyond the range, a notice names a sufficient "
+    "power") {
     const TemporaryFolder folder;
     const auto day_of = [&](double metres) {
         const std::string heard =
@@ -191,15 +191,15 @@ TEST_CASE(
     const std::string told = far.hears_farther({});
     CAPTURE(told);
     // 40 log10(397 / 250) = 8.03 dB over flat ground.
-    CHECK(
-        told.find("n1 received a frame of n0 over 397 m at 1.005000 s, but this is 8.0 dB below") !=
-        std::string::npos);
+    CHECK(told.find("n1 received a frame of n0 over 397 m at 1.005000 s, but with the first radio "
+                    "of the replay, the received power is 8.0 dB below") != std::string::npos);
     CHECK(told.find("--as \"radio.power=32.6 dBm\"") != std::string::npos);
     CHECK(deliveries(far, {"radio.power=32.6 dBm"}) == 1);
     CHECK(far.hears_farther({"radio.power=32.6 dBm"}).empty());
     const std::vector<std::string> disc = {"propagation.model=disc", "propagation.range=100 m"};
-    CHECK(far.hears_farther(disc).find("reaches only 100 m; --as \"propagation.model=disc;"
-                                       "propagation.range=397 m\"") != std::string::npos);
+    CHECK(far.hears_farther(disc).find("reaches only 100 m; give this radio a larger range: --as "
+                                       "\"propagation.model=disc;propagation.range=397 m\"") !=
+          std::string::npos);
     CHECK(far.hears_farther({"propagation.model=disc", "propagation.range=397 m"}).empty());
 }
 
@@ -220,8 +220,7 @@ TEST_CASE("replay of an ns-2 trace: the range of the default radio is 250 m") {
     }
 }
 
-TEST_CASE(
-    "replay of an ns-2 trace: a robot without a position in trace and movement file is an error") {
+TEST_CASE("replay of an ns-2 trace: a robot whose position is in no file is an error") {
     const TemporaryFolder folder;
     const std::string trace = folder.write("lost.tr", move_line(0, 0) + said(1, 0, 0, "1"));
     CHECK_THROWS_WITH_AS(
@@ -243,7 +242,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "replay of an ns-2 trace: messages without another robot as destination are skipped and "
+    "replay of an ns-2 trace: messages to their own sender or to no robot are skipped and "
     "counted") {
     const TemporaryFolder folder;
     const std::string trace =
@@ -251,8 +250,8 @@ TEST_CASE(
                                    said(2, 1, 0, "4194305") + said(3, 2, 0, "1"));
     const RecordedDay day = read_ns2_day(trace, {});
     CHECK(day.notices() ==
-          std::vector<std::string>{"2 messages are left out, because their destination is their "
-                                   "sender, or is not a robot of the trace"});
+          std::vector<std::string>{"2 messages are left out, because each of them was sent to its "
+                                   "own sender, or to a robot that is not in the trace"});
     CHECK(day.play({}).metrics.messages == 1);
 }
 
@@ -263,7 +262,7 @@ TEST_CASE("replay of an ns-2 trace: a trace without robots is refused") {
                          InputError);
 }
 
-TEST_CASE("replay of an ns-2 trace: M lines (movements) alone give positions within 15 cm") {
+TEST_CASE("replay of an ns-2 trace: from M lines (movements) alone, positions are exact to 15 cm") {
     std::string traces, movements;
     if (!find_pair(traces, movements)) return;
     for (const char* name : {"old_aodv_mac.tr", "old_dsdv.tr", "old_dsr.tr"}) {

@@ -61,8 +61,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "an ns-2 trace whose MAC lines contain lost frames does not get the notice that it contains "
-    "none") {
+    "for an ns-2 trace, the notice that lost frames are missing appears only without MAC lines") {
     for (const bool mac : {false, true}) {
         CAPTURE(mac);
         const TempFolder folder;

@@ -148,7 +148,7 @@ TEST_CASE("recorded air: levels and times of all receptions equal those of the r
     }
 }
 
-TEST_CASE("recorded air: it is known which robots are off, and frames are removed at their end") {
+TEST_CASE("recorded air: robots that are off are known, and each frame is removed when it ends") {
     const Run run("");
     RecordedReader trace(run.recorded);
     RecordedAir air(LoadedRun(trace.run(), run.recorded));

@@ -108,7 +108,9 @@ TEST_CASE("metrics from a recorded trace equal those of the run") {
     }
 }
 
-TEST_CASE("a run can be repeated from its trace with models of propagation, reception and access") {
+TEST_CASE(
+    "for several models of propagation, reception and access, a run can be repeated from its "
+    "trace") {
     TempFolder folder;
     const std::string path = folder / "busy.toml";
     testing::write_file(path, busy);

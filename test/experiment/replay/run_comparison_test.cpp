@@ -81,8 +81,8 @@ TEST_CASE("run comparison: a run does not differ from itself") {
 }
 
 TEST_CASE(
-    "run comparison: a delivery missing in one run has the outcome of the message's last frame in "
-    "this run") {
+    "run comparison: a delivery missing in run B has the outcome of the message's last frame in "
+    "run B") {
     const test::TemporaryFolder folder;
     const std::string trace = record(folder, "relay/routes.toml", "run");
     const std::string other = folder.path("other.mcap");

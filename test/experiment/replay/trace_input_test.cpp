@@ -120,7 +120,7 @@ TEST_CASE("the text of a recorded run with AODV or DSR equals its ns-2 trace, by
 }
 
 TEST_CASE(
-    "the text of a recorded trace of format 4, which has no sizes of frames, has the control "
+    "a recorded trace of format 4, which lacks sizes of frames, gives a text with control "
     "packets") {
     const std::string path = std::string(ROVERNET_TEST_DATA) + "/recorded_format4.mcap";
     const std::string text = all_of(old_with_mac(path).text());

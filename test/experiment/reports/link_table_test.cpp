@@ -13,7 +13,7 @@ namespace link_table_test {
 using namespace rovernet;
 
 TEST_CASE(
-    "links: the link table of each robot is passed to the caller before the next one is computed") {
+    "links: each robot's link table is passed to the caller before the next table is computed") {
     const test::TemporaryFolder folder;
     const Scenario scenario = load_scenario(folder.write("s.toml", R"([[robot]]
 name = "r"

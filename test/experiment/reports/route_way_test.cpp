@@ -67,7 +67,7 @@ TEST_CASE("route path: each hop and its age come from the routing table of the h
     CHECK(way.hops[2].is_up);
     CHECK_FALSE(way.broken_at);
     CHECK(row.text(3) ==
-          "route from r0 to r3: r0 > r1 > r2 > r3, 3 hops, oldest part learnt 4 s ago");
+          "route from r0 to r3: r0 > r1 > r2 > r3, 3 hops, oldest hop learnt 4 s ago");
 }
 
 TEST_CASE("route path: the path ends at a robot without a route, or with a broken route") {
@@ -86,8 +86,8 @@ TEST_CASE("route path: the path ends at a robot without a route, or with a broke
 }
 
 TEST_CASE(
-    "route path: the path breaks at the first sender that its next hop does not hear; later hops "
-    "follow routing tables") {
+    "route path: the first hop that is not heard breaks the path; later hops follow routing "
+    "tables") {
     const Row far({{0, {route(4, 2, 2)}}, {2, {route(4, 3, 2)}}, {3, {route(4, 4, 1)}}});
     const RouteWay way = far.way(4);
     REQUIRE(way.hops.size() == 3);

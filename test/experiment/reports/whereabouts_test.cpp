@@ -37,7 +37,9 @@ using Presences = std::vector<Presence>;
 
 }  // namespace
 
-TEST_CASE("whereabouts: a vehicle is reported as not departed, then as on, and at last as gone") {
+TEST_CASE(
+    "whereabouts: a vehicle is reported as not yet departed, then as present, and at last as "
+    "gone") {
     test::TemporaryFolder folder;
     const Scenario s = load_scenario(folder.write("fcd.xml", two_vehicles), {});
     const auto all =

@@ -191,7 +191,9 @@ TEST_CASE(
     CHECK(reader.message().size() == 1);
 }
 
-TEST_CASE("web sockets: a stopping server waits for slow readers, but not long for non-readers") {
+TEST_CASE(
+    "web sockets: when the server stops, it waits for slow readers, but not long for clients that "
+    "do not read") {
     Echo echo;
     WebClient slow(echo.port), deaf(echo.port);
     for (WebClient* each : {&slow, &deaf}) {
@@ -258,7 +260,8 @@ TEST_CASE("web sockets: clients that vanish are reported as gone") {
     CHECK(echo.has(0));
 }
 
-TEST_CASE("web sockets: requests from foreign pages or hosts, or without an upgrade, are refused") {
+TEST_CASE(
+    "web sockets: requests of foreign pages or hosts, or without an Upgrade header, are refused") {
     const Echo echo;
     const std::string own = "127.0.0.1:" + std::to_string(echo.port);
     const auto answer = [&](const std::string& origin, const std::string& target = "/",
@@ -347,7 +350,8 @@ TEST_CASE("web sockets: fixed pages are served for GET and HEAD; other paths are
 }
 
 TEST_CASE(
-    "web socket admission: foreign pages need the token; on loopback, foreign hosts are refused") {
+    "web socket admission: foreign pages need the token; on loopback, foreign host names are "
+    "refused") {
     const std::string secret = "0123456789abcdef0123456789abcdef";
     const Admission admission({"127.0.0.1", 9090}, secret);
     const std::string right = "/any/path?x=1&token=" + secret, part = "/?token=0123",

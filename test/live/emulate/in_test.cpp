@@ -133,7 +133,8 @@ TEST_CASE("rovernet in: root enters the network of another user's run only with 
         if (ended.err.find("65534") != std::string::npos) break;
     }
     CHECK(ended.exit == 2);
-    CHECK(ended.err.find("has a robot " + robot + ": --user 65534 enters") != std::string::npos);
+    CHECK(ended.err.find("has a robot " + robot + ": with --user 65534 you enter") !=
+          std::string::npos);
     const std::string run = std::to_string(squatter.pid());
     CHECK(try_in({"--run", run}).exit == 2);
     CHECK(try_in({"--run", "/"}).exit == 2);

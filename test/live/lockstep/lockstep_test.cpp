@@ -184,7 +184,7 @@ TEST_CASE(
     Talk talk(three_in_a_row());
     talk.say(0, hello_a);
     CHECK(Json::parse(talk.ask(0, step(1, R"(,"do":{"Zoe":{}})"))).at("msg") ==
-          "no robot Zoe; there are A, B, C");
+          "no robot Zoe; the robots are A, B, C");
     const auto message = [&](const std::string& more) {
         return Json::parse(talk.ask(0, step(1, more))).at("msg").get<std::string>();
     };
@@ -260,7 +260,8 @@ TEST_CASE("lockstep: results do not depend on the order in which controllers lea
     CHECK(run(0) == run(1));
 }
 
-TEST_CASE("lockstep: controllers that leave at one time are removed in the order of their robots") {
+TEST_CASE(
+    "lockstep: controllers that leave at the same time are removed in the order of their robots") {
     for (const bool is_a_first : {true, false}) {
         CAPTURE(is_a_first);
         Talk talk(three_in_a_row(), {.wait_for = 2});
@@ -511,7 +512,7 @@ TEST_CASE(
     lose(ends);
     CHECK(ends.lockstep.is_done());
     CHECK(ends.lockstep.fault() ==
-          "controller A has disconnected at 0.1 s without a message of type bye");
+          "controller A has disconnected at 0.1 s without a message of type \"bye\"");
 
     Talk stops(three_in_a_row(), {.wait_for = 2, .on_loss = OnLoss::stop});
     lose(stops);
@@ -616,7 +617,8 @@ TEST_CASE(
     CHECK_FALSE(gone.lockstep.is_done());
     gone.lockstep.closed(0);
     gone.lockstep.held(0s);
-    CHECK(gone.lockstep.fault() == "a controller has ended before it sent a message of type hello");
+    CHECK(gone.lockstep.fault() ==
+          "a controller has ended before it sent a message of type \"hello\"");
 }
 
 TEST_CASE("lockstep: if a started program sends no hello within the time limit, the run fails") {
@@ -634,7 +636,8 @@ TEST_CASE("lockstep: if a started program sends no hello within the time limit, 
     CHECK_FALSE(slow->lockstep.is_done());
     slow->say(1, "no hello");
     slow->lockstep.held(50ms);
-    CHECK(slow->lockstep.fault() == "no hello within 0.05 s from controller \"sleep 30\"");
+    CHECK(slow->lockstep.fault() ==
+          "no message of type \"hello\" within 0.05 s from controller \"sleep 30\"");
     CHECK(slow->lockstep.time_to_end() == 400ms);
 
     const auto complete = run_of_three(50ms);

@@ -160,7 +160,7 @@ TEST_CASE("stepped run: a run ends at the end of the scenario, and can then be r
     CHECK(step(run));  // the rest of 500 ms
     CHECK(run.is_done());
     CHECK(run.session().network().now() == start_of_run + 2s);
-    CHECK(refusal([&] { step(run); }) == "the run is at its end; expected reset or finish");
+    CHECK(refusal([&] { step(run); }) == "the run is at its end; expected a reset or a finish");
     CHECK(run.finish().simulated == 2s);
     CHECK(run.is_over());
     CHECK(refusal([&] { step(run); }) == "the run is over; expected a reset first");

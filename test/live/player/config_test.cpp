@@ -146,7 +146,7 @@ TEST_CASE(
               std::string::npos);
     }
     CHECK(fault(head + robots + "driver ( name \"relay\" )")
-              .find("relay: provides has no opaque device") != std::string::npos);
+              .find("relay: found no opaque device in \"provides\"") != std::string::npos);
     CHECK_THROWS_AS(read_player_config("/nowhere/two.cfg"), InputError);
 }
 

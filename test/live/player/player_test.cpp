@@ -245,7 +245,7 @@ TEST_CASE(
     CHECK(to_hex(told[0].bytes()).starts_with("0100007f00001a09"));
 }
 
-TEST_CASE("player: the link table of wifi has the expected bytes") {
+TEST_CASE("player: the link table of the device `wifi` has the expected bytes") {
     PlayerTalk talk(player_scenario(pair));
     const auto client = talk.come();
     talk.say(client, device(23, 0));
@@ -333,7 +333,9 @@ TEST_CASE("player: an unknown device is refused, and no message `SYNCH` is sent 
     CHECK(to_hex(told[0].payload) == "000000020000000203460000");
 }
 
-TEST_CASE("player: the relay reaches all clients of a robot, including the sender, and no others") {
+TEST_CASE(
+    "player: a message to the relay reaches all clients of the robot, including the sender, and no "
+    "others") {
     PlayerTalk talk(player_scenario(pair));
     const auto sender = talk.come(), listener = talk.come(), other = talk.come(1);
     for (const auto client : {sender, listener, other}) talk.say(client, device(51, 0));
@@ -390,7 +392,8 @@ TEST_CASE(
     CHECK_FALSE(talk.session.driver(NodeId{0}));
 }
 
-TEST_CASE("player: a robot without a driver moves as in the scenario, whoever subscribes") {
+TEST_CASE(
+    "player: a robot that no client drives moves as in the scenario, even if a client subscribes") {
     PlayerTalk talk(
         player_scenario(pair + "move = { model = \"goal\", to = [\"7 m\", \"1 m\"] }\n"));
     const auto client = talk.come(1);
@@ -402,7 +405,9 @@ TEST_CASE("player: a robot without a driver moves as in the scenario, whoever su
     CHECK(talk.session.network().position(NodeId{1}).x == doctest::Approx(1));
 }
 
-TEST_CASE("player: a client in PULL mode gets the newest data once, and all messages") {
+TEST_CASE(
+    "player: a client in PULL mode gets only the newest data, the last 1,023 messages, and the "
+    "number of lost messages") {
     PlayerTalk talk(player_scenario(pair));
     const auto client = talk.come();
     talk.say(client, mode(pull) + device(4, 0) + device(51, 0));

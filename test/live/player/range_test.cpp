@@ -105,7 +105,7 @@ TEST_CASE(
     CHECK(answer(talk, sonar, 0, 9) == "refused");
 }
 
-TEST_CASE("player: at one port, each robot has equally many device indices, even without devices") {
+TEST_CASE("player: if robots share a port, each robot has the same number of device indices") {
     const std::vector<PlayerPlace> places = {{"robot1", 0, 0}, {"robot2", 0, 1}};
     PlayerTalk alike(player_scenario(with_scans("{ range = \"1 m\" }", "{ range = \"2 m\" }")),
                      {.places = places});

@@ -129,8 +129,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "rosbridge: with a queue a throttled topic keeps the newest messages, without one it drops "
-    "early messages") {
+    "rosbridge: a throttled topic with a queue keeps the newest messages; without a queue, it "
+    "drops early messages") {
     RosTalk talk(three_in_a_row());
     talk.subscribe("/B/radio/received", {{"throttle_rate", 500}, {"queue_length", 2}});
     talk.come(1);
@@ -644,7 +644,7 @@ TEST_CASE("rosbridge: an invalid message gets an error, and the connection conti
         {R"({"op":"publish","topic":"/A/cmd_vel","msg":{"twist":1}})", "msg.twist: found 1"},
         {R"({"op":"publish","topic":"/A/goal_pose","msg":{}})", "\"pose\" is missing"},
         {R"({"op":"publish","topic":"/A/goal_pose","msg":{"header":{"frame_id":"B/odom"},"pose":{}}})",
-         "expected map or A/odom"},
+         "expected \"map\" or \"A/odom\""},
         {R"({"op":"publish","topic":"/A/radio/send","msg":{"data":"R"}})", "expected base64"},
         {R"({"op":"publish","topic":"/A/radio/send","msg":{"data":[256]}})",
          "msg.data[0]: found 256"},

@@ -46,7 +46,8 @@ std::vector<std::string> scans(RosTalk& talk) {
 }  // namespace
 
 TEST_CASE(
-    "rosbridge: the first laser has the topic /A/scan, others /A/NAME/scan, a sonar ring none") {
+    "rosbridge: the first laser has the topic /A/scan, others /A/NAME/scan, a sonar ring no "
+    "topic") {
     RosTalk talk(
         with_scan("[" + ring + ", { kind = \"ranger\", beams = 3 }, " + front + ", " + rear + "]"));
     CHECK(scans(talk) == std::vector<std::string>{"/A/ranger/scan", "/A/scan", "/A/rear/scan"});
@@ -76,7 +77,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "rosbridge: without a laser the first fan of beams has the topic /A/scan; rings have none") {
+    "rosbridge: without a laser, the first fan of beams has the topic /A/scan; a ring of beams has "
+    "no topic") {
     RosTalk talk(with_scan("[" + ring + ", { kind = \"ranger\", beams = 3 }]"));
     CHECK(scans(talk) == std::vector<std::string>{"/A/scan"});
     RosTalk rings(with_scan(ring));

@@ -178,7 +178,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("viewer answers: without the map, answers that show walls are refused") {
+TEST_CASE("viewer answers: if the map is hidden, answers that would show walls are refused") {
     const Recorded run;
     ViewerAnswers answers({run.path()}, {run.path()});
     answers.hide_map();
@@ -197,7 +197,7 @@ TEST_CASE("viewer answers: without the map, answers that show walls are refused"
     CHECK(error_of(answers, R"({"id": 1, "op": "robot", "robot": 1, "t_ns": 0})").empty());
 }
 
-TEST_CASE("viewer answers: links under the model disc have neither level nor margin") {
+TEST_CASE("viewer answers: links under the model `disc` have neither level nor margin") {
     const Recorded run({"propagation.model=disc", "propagation.range=30 m"});
     ViewerAnswers answers({run.path()});
     const Value all = ask(answers, R"({"id": 1, "op": "links", "t_ns": 0})");
@@ -206,7 +206,7 @@ TEST_CASE("viewer answers: links under the model disc have neither level nor mar
     for (const Value& margin : margins) CHECK(std::holds_alternative<std::monostate>(margin.data));
 }
 
-TEST_CASE("viewer answers: the run number 1 selects the second run") {
+TEST_CASE("viewer answers: a question with run number 1 is answered for the second run") {
     const Recorded run;
     const std::string path = run.folder.path("other.mcap");
     RecordedDay(run.path()).record(path, {"propagation.model=friis"});
@@ -270,7 +270,8 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("viewer answers: with the model disc, coverage is the disc's range, without levels") {
+TEST_CASE(
+    "viewer answers: with the model `disc`, coverage is the range of the disc, without levels") {
     const Recorded run({"propagation.model=disc", "propagation.range=12 m"});
     ViewerAnswers answers({run.path()});
     const Value answer =
@@ -283,7 +284,7 @@ TEST_CASE("viewer answers: with the model disc, coverage is the disc's range, wi
     CHECK(!contour.find("lines")->array()->empty());
 }
 
-TEST_CASE("viewer answers: the drawing equals that of the command draw") {
+TEST_CASE("viewer answers: the drawing equals that of the command `draw`") {
     const Recorded run;
     ViewerAnswers answers({run.path()});
     const Value answer = ask(answers, R"({"id": 1, "op": "svg", "t_ns": 10000000000, "storey": 0,
@@ -300,7 +301,7 @@ TEST_CASE(
     CHECK(error_of(answers, "no json") != "");
     CHECK(error_of(answers, "[]") != "");
     CHECK(error_of(answers, R"({"id": 1})") != "");
-    CHECK(error_of(answers, R"({"id": 1, "op": "stop"})").find("expected why, air") !=
+    CHECK(error_of(answers, R"({"id": 1, "op": "stop"})").find("expected \"why\", \"air\"") !=
           std::string::npos);
     CHECK(error_of(answers, R"({"id": 1, "op": "pair", "a": 0, "b": 0, "t_ns": 0})") != "");
     CHECK(error_of(answers, R"({"id": 1, "op": "pair", "a": 0, "b": 5, "t_ns": 0})") != "");

@@ -87,7 +87,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "bonnmotion: of many nodes that turn at the same time, the first in the file comes first") {
+    "bonnmotion: simultaneous commands of many nodes are in the order of the nodes in the file") {
     std::string text;
     for (int node = 0; node < 100; ++node) {
         text += "1 0 0 2 1 0 " + std::string(node % 3 == 0 ? "3 1 1 4 5 5" : "4 2 2") + "\n";
@@ -142,8 +142,8 @@ TEST_CASE("bonnmotion: the .params file determines whether positions have a z") 
     CHECK(near(played(twelve, "J=3D\r\n").position("n0", 9), {3, 3, 9}));
     CHECK(played("0 1 2\n", "z=0.0\n").file.robots()[0].start == Vec3{1, 2, 0});
     CHECK(error_of("0 1 2 3\n", "model=Static\n") ==
-          "scen.movements:1:8: found a line of 4 numbers, expected \"time x y\" once or more: a "
-          "multiple of 3");
+          "scen.movements:1:8: found a line of 4 numbers, expected \"time x y\" once or more, so a "
+          "multiple of 3 numbers");
 }
 
 TEST_CASE("bonnmotion: the status of nodes in the disaster area model is ignored") {
@@ -152,7 +152,7 @@ TEST_CASE("bonnmotion: the status of nodes in the disaster area model is ignored
     CHECK(near(played("0 1 2 7 0 4 5 2 7 1\n", params + "z=9\n").position("n0", 2), {3, 2, 7}));
 }
 
-TEST_CASE("bonnmotion: a gzip file is read like the plain file, under any name") {
+TEST_CASE("bonnmotion: a gzip file is read like the plain file, whatever the file name") {
     const TemporaryFolder folder;
     const Playback p(folder.write("any.name", zipped(two_nodes)));
     CHECK(p.file.robots().size() == 2);
@@ -198,10 +198,11 @@ TEST_CASE("bonnmotion: an invalid list of waypoints is refused, with line and co
     CHECK(error_of("0 1 1 2 x 1\n") == "scen.movements:1:9: found \"x\", expected a number");
     CHECK(error_of("0 1 1\n0 2 nan\n") == "scen.movements:2:5: found \"nan\", expected a number");
     CHECK(error_of("0 1 1\n\n0 2 2\n") ==
-          "scen.movements:2:1: found an empty line before the last node, expected waypoints");
+          "scen.movements:2:1: found an empty line before the last node, expected a line with the "
+          "waypoints of a node");
     CHECK(error_of("0 1 1 2 1 2 1\n") ==
-          "scen.movements:1:14: found a line of 7 numbers, expected \"time x y z\" once or more: a "
-          "multiple of 4, or of 3");
+          "scen.movements:1:14: found a line of 7 numbers, expected \"time x y z\" once or more, "
+          "so a multiple of 4 numbers, or of 3 numbers");
     CHECK(error_of("0 1 1 5 1 1 4 2 1\n") ==
           "scen.movements:1:13: found \"4\", expected a later time than the time of the previous "
           "waypoint");
@@ -265,7 +266,9 @@ TEST_CASE("bonnmotion: an endless line is refused, compressed or not") {
     const TemporaryFolder folder;
     std::string zeros(20U << 20, ' ');
     for (std::size_t i = 0; i < zeros.size(); i += 2) zeros[i] = '0';
-    const std::string words = "a line is longer than 16777216 bytes";
+    const std::string words =
+        "a line is longer than 16777216 bytes, which is the limit; check that this is the right "
+        "file";
     for (const std::string& bytes : {zeros, zipped(zeros)}) {
         const std::string error = movement_error(folder.write("scen.movements", bytes));
         CAPTURE(error);
@@ -276,7 +279,8 @@ TEST_CASE("bonnmotion: an endless line is refused, compressed or not") {
 }
 
 TEST_CASE(
-    "bonnmotion: a file with one line per time, not per node, is refused; resting nodes are not") {
+    "bonnmotion: a file with one line per time, not per node, is refused; a file of resting nodes "
+    "is read") {
     for (const char* track : {"0 0.5 1.5\n1 1.5 1.5\n2 2.5 1.5\n", "0.0 1 2 0\n0.1 1 3 0\n",
                               "0 1 1\n0 5 5\n1 1 2\n1 5 6\n", "3 1 1\n4 1 1\n"}) {
         CAPTURE(track);

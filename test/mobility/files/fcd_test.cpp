@@ -92,7 +92,7 @@ TEST_CASE("fcd: robots appear, vanish after their last timestep and may come bac
     CHECK(near(p.position("b", 4), {9, 9, 0}));
 }
 
-TEST_CASE("fcd: a robot in a first timestep after the start appears at that time") {
+TEST_CASE("fcd: if the first timestep is after the start, its robots appear only then") {
     const auto p = played(fcd(step("1", at("a", "5", "0")) + step("2", at("a", "9", "0"))));
     CHECK_FALSE(p.present("a", 0.5));
     CHECK(p.present("a", 1.5));
@@ -123,7 +123,7 @@ TEST_CASE("fcd: names of robots are the ids, with character references and non-A
     CHECK(error_of(fcd(step("0", at("\xff", "0", "0")))).find("UTF-8") != std::string::npos);
     CHECK(error_of(fcd(step("0", at("a&#10;b", "0", "0")))).find("UTF-8") != std::string::npos);
     CHECK(error_of(fcd(step("0", at("", "0", "0")))) ==
-          "fcd.xml:4:20: found <vehicle> without id, expected id=\"...\"");
+          "fcd.xml:4:20: found <vehicle> without the attribute id, expected id=\"...\"");
     CHECK(error_of(fcd(step("0", at("a&b;", "0", "0"))))
               .ends_with("found \"&b;\", expected a character reference such as &amp;"));
     CHECK(error_of(fcd(step("0", at("&#xD800;", "0", "0")))) != "");
@@ -141,7 +141,7 @@ TEST_CASE("fcd: content that is invalid in an FCD file is refused, with line and
     CHECK(body(step("0", "<vehicle id=\"a\"\n  x=\"1\"\n y=\"1,5\"/>")) ==
           "fcd.xml:6:5: found \"1,5\", expected a coordinate from -1e9 to 1e9 [m]");
     CHECK(body(step("0", at("a", "", "1"))) ==
-          "fcd.xml:4:20: found <vehicle> without x, expected x=\"...\"");
+          "fcd.xml:4:20: found <vehicle> without the attribute x, expected x=\"...\"");
     CHECK(body(step("0", "<vehicle id=\"a\" x=\"1\"/>")) ==
           "fcd.xml:4:20: found <vehicle> without y, expected y=\"...\"");
     CHECK(body("<timestep/>") ==
@@ -161,7 +161,9 @@ TEST_CASE("fcd: XML that is not well-formed is refused, with line and column") {
     CHECK(body("text") == "fcd.xml:4:1: found \"text\", expected a tag (<)");
     CHECK(body("<!DOCTYPE x>") == "fcd.xml:4:1: found \"<!DOCTYPE\", expected an element");
     CHECK(body("<![CDATA[x]]>") == "fcd.xml:4:1: found \"<![CDATA[\", expected an element");
-    CHECK(body("<!-- x") == "fcd.xml:4:1: found no end of what begins here, expected \"-->\"");
+    CHECK(body("<!-- x") ==
+          "fcd.xml:4:1: the comment or processing instruction that begins here has no end, "
+          "expected \"-->\"");
     CHECK(body("<timestep time=\"0") == "fcd.xml:4:1: the file ends inside a tag, expected \">\"");
     CHECK(body("<timestep time=0>") == "fcd.xml:4:16: found \"0>\", expected a value in quotes");
     CHECK(body("<timestep time>") ==
@@ -180,7 +182,8 @@ TEST_CASE("fcd: XML that is not well-formed is refused, with line and column") {
     CHECK(error_of("<fcd-export/><fcd-export/>").starts_with("fcd.xml:1:14: found "));
     CHECK(error_of("<?xml?>") == "fcd.xml:1:8: the file ends, expected an element");
     CHECK(error_of(fcd("<timestep time=\"0\" x=\"" + std::string(70'000, 'x') + "\"/>")) ==
-          "fcd.xml:4:1: a tag is longer than 65536 bytes");
+          "fcd.xml:4:1: a tag is longer than 65536 bytes, which is the limit; check that this is "
+          "the right file");
     CHECK(error_of(fcd("<timestep time=\"0\" x=\"" + std::string(60'000, 'x') + "\"/>")) == "");
     CHECK(error_of("</a>").starts_with("fcd.xml:1:1: found \"</a>\", expected an element"));
 }

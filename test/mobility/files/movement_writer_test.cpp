@@ -135,7 +135,8 @@ TEST_CASE("writer: an ns-2 movement file has the expected lines") {
         {"c", {rest(0, {7, 7, 0}), leg(2.5, 6.5, {7, 7, 0}, {7, 9, 0})}}};
     CHECK(setdest_text(tracks, at(100)) ==
           "# nodes: 3, max x: 50.00, max y: 60.00\n"
-          "# ns-2 stops at a target outside of its field: load_flatgrid 51 61 or more\n"
+          "# ns-2 stops at a target outside of the field; write load_flatgrid 51 "
+          "61, or larger numbers\n"
           "# a -> $node_(0)\n"
           "# b -> $node_(1)\n"
           "# c -> $node_(2)\n"
@@ -148,16 +149,18 @@ TEST_CASE("writer: an ns-2 movement file has the expected lines") {
           "$node_(2) set X_ 7.000000000\n"
           "$node_(2) set Y_ 7.000000000\n"
           "$node_(2) set Z_ 0.000000000\n"
-          "$ns_ at 0.000000000 \"$node_(0) setdest 11.000000000 2.000000000 1.000000000000\"\n"
-          "$ns_ at 2.500000000 \"$node_(2) setdest 7.000000000 9.000000000 0.500000000000\"\n");
+          "$ns_ at 0.000000000 \"$node_(0) setdest 11.000000000 2.000000000 "
+          "1.000000000000\"\n"
+          "$ns_ at 2.500000000 \"$node_(2) setdest 7.000000000 9.000000000 "
+          "0.500000000000\"\n");
 }
 
 TEST_CASE(
     "writer: positions with x or y not above 0, which ns-2 cannot use, are noted in the file") {
     const std::vector<Track> tracks = {{"a", {leg(0, 10, {0, 2, 0}, {-3.5, 2, 0})}}};
     CHECK(setdest_text(tracks, at(100))
-              .find("# and at a target with x or y not above 0; the least x here is -3.50, the "
-                    "least y 2.00\n") != std::string::npos);
+              .find("# ns-2 also stops at a target whose x or y is not above 0; the smallest x in "
+                    "this file is -3.50, the smallest y is 2.00\n") != std::string::npos);
 }
 
 TEST_CASE("writer: nodes of an ns-2 file keep their numbers, and other names are in comments") {

@@ -438,7 +438,8 @@ TEST_CASE("setdest: lines that cross the blocks in which the file is read are re
     CHECK(p.commands.size() > 10'000);
     CHECK(wrong == 0);
     CHECK(error_of(place_0 + "#" + std::string(70'000, 'x') + "\n") ==
-          "scen.tcl:4:1: a line is longer than 65536 bytes");
+          "scen.tcl:4:1: a line is longer than 65536 bytes, which is the limit; check that this is "
+          "the right file");
     CHECK(error_of(place_0 + "#" + std::string(65'000, 'x') + "\n") == "");
 }
 

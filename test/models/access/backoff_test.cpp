@@ -178,7 +178,8 @@ TEST_CASE("backoff: with slots of 1 us, access is granted at the exact end of th
     CHECK(s.backoff.grant() == at(12));
 }
 
-TEST_CASE("backoff: a station's own frame, its answer and the wait for the answer count as busy") {
+TEST_CASE(
+    "backoff: a station's own frame, the answer to it and the wait for the answer count as busy") {
     Station answered;
     answered.timing.difs = 14us;
     answered.ask_while_idle(20);
@@ -197,7 +198,8 @@ TEST_CASE("backoff: a station's own frame, its answer and the wait for the answe
 }
 
 TEST_CASE(
-    "backoff: stations whose backoffs end together both send, at propagation delays below 2 us") {
+    "backoff: stations whose backoffs end together both send if the propagation delay is below 2 "
+    "us") {
     WifiTiming timing = timing_of(WifiStandard::b);
     for (const Duration delay : {Duration{0}, Duration{1000}, Duration{1999}}) {
         Backoff first(timing), second(timing);

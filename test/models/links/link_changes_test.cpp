@@ -52,7 +52,8 @@ struct Rings {
 }  // namespace
 
 TEST_CASE(
-    "link changes: with model disc, a link is up from the first to the last nanosecond in range") {
+    "link changes: with the model `disc`, a link is up from the first to the last nanosecond in "
+    "range") {
     const Scene field;
     MovingPair pair{&field};
     pair.add(Disc{.range = 10_m}, resting({}));
@@ -188,7 +189,7 @@ TEST_CASE("link changes: a tolerance of 0 ns and a negative min_dwell are refuse
         CHECK_THROWS_AS(pair.changes(a, b, start_of_run, never, search), std::invalid_argument);
 }
 
-TEST_CASE("link changes: for two_ray with constant heights the time is exact to 1 ns") {
+TEST_CASE("link changes: with the model `two_ray` and constant heights, times are exact to 1 ns") {
     const Scene field;
     MovingPair pair{&field};
     const Leg away = moving({10, 0, 0}, {20, 0, 0}, 100s);

@@ -57,7 +57,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "range crossing: robots at rest, a range of 0, infinite and NaN arguments give no crossing") {
+    "range crossing: for robots at rest, a range that is not positive, and infinite or NaN "
+    "arguments, no crossing is found") {
     constexpr double nan = std::numeric_limits<double>::quiet_NaN();
     constexpr double infinity = std::numeric_limits<double>::infinity();
     CHECK_FALSE(range_crossing({1, 0, 0}, {}, 10));

@@ -173,7 +173,8 @@ TEST_CASE("medium: receivers are those of a search over all pairs, for every mod
 }
 
 TEST_CASE(
-    "medium: with log_distance and few radios, receivers are those of a search over all pairs") {
+    "medium: with log_distance and few kinds of radios, receivers are those of a search over all "
+    "pairs") {
     for (const std::size_t kinds : {std::size_t{1}, std::size_t{3}}) {
         CAPTURE(kinds);
         Crowd crowd(12);
@@ -205,7 +206,7 @@ TEST_CASE("medium: if robots have different models, the sender's model applies")
     }
 }
 
-TEST_CASE("medium: a more sensitive receiver that joins later is found at once") {
+TEST_CASE("medium: a more sensitive receiver that joins later is found immediately") {
     for (const Propagation& model :
          {Propagation{Friis{}}, Propagation{LogDistance{.sigma = {6}}}}) {
         Crowd crowd(3);
@@ -298,8 +299,7 @@ TEST_CASE("medium: with radios switched off, receivers are those of a search ove
 }
 
 TEST_CASE(
-    "medium: reachable robots are the others of the sender's connected component, as Boost.Graph "
-    "finds it") {
+    "medium: the number of reachable robots agrees with the connected components of Boost.Graph") {
     for (std::uint32_t seed = 1; seed <= 20; ++seed) {
         Crowd crowd(seed);
         const Propagation disc = Disc{.range = 7_m};
@@ -385,7 +385,7 @@ TEST_CASE("medium: a sender without neighbours reaches all robots that jump into
 }
 
 TEST_CASE(
-    "medium: is_stronger() agrees with the levels of both frames, with four kinds of models") {
+    "medium: for two frames, is_stronger() agrees with their levels, with four kinds of models") {
     const Scene field;
     test::Draw draw(23);
     int stronger = 0, plain = 0;
@@ -424,7 +424,7 @@ TEST_CASE(
     CHECK(plain > 10'000);
 }
 
-TEST_CASE("medium: the bound on neglected interference assumes the cut-off level for each frame") {
+TEST_CASE("medium: the bound on neglected interference counts each frame at the cut-off level") {
     const Scene field;
     // Noise of -93.6 dBm; the cut is at -95 dBm: each adds 0.72 of the noise at most.
     Medium medium{{.scene = &field, .interference_cut = Db{20}}};

@@ -126,7 +126,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "neighbour index: for nodes at rest, the lower bound on a distance is near the distance") {
+    "neighbour index: for a node at rest, the lower bound on its distance is nearly the distance") {
     Swarm swarm(7);
     const auto place = [&] {
         return Vec3{swarm.draw.uniform(0, 1e4), swarm.draw.uniform(0, 1e4), 0};
@@ -165,8 +165,8 @@ TEST_CASE("neighbour index: a node whose movement has no end is found") {
 }
 
 TEST_CASE(
-    "neighbour index: searches find a node at 1e9 m, coincident nodes and nodes on a line, also at "
-    "radius 0") {
+    "neighbour index: searches find a node at 1e9 m, coincident nodes and nodes on a line, also "
+    "with a search radius of 0") {
     Swarm swarm(3);
     for (int i = 0; i < 300; ++i) swarm.add({5, 5, 0}, 0);
     for (int i = 0; i < 300; ++i) swarm.add({10.0 * i, -70, 0}, 1);

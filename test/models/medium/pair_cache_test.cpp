@@ -29,7 +29,8 @@ void keep(PairCache& cache, NodeId from, NodeId to, double loss_db) {
 
 }  // namespace
 
-TEST_CASE("pair cache: a loss is stored for one direction only") {
+TEST_CASE(
+    "pair cache: a loss is stored for one direction of a link, not for the opposite direction") {
     PairCache cache;
     CHECK(kept(cache, a, b) == std::nullopt);
     keep(cache, a, b, 70);
@@ -41,7 +42,7 @@ TEST_CASE("pair cache: a loss is stored for one direction only") {
     CHECK(kept(cache, a, b) == 70);
 }
 
-TEST_CASE("pair cache: a loss becomes invalid when either of its robots moves") {
+TEST_CASE("pair cache: a stored loss becomes invalid when one of the link's two robots moves") {
     for (const NodeId moved : {a, b}) {
         PairCache cache;
         keep(cache, a, b, 70);
@@ -77,7 +78,9 @@ TEST_CASE("pair cache: each pair gets its own loss, in whatever order losses are
     }
 }
 
-TEST_CASE("pair cache: a loss known only to exceed a cut-off is not reused for a larger cut-off") {
+TEST_CASE(
+    "pair cache: if a loss is only known to exceed a cut-off, it is not reused for a larger "
+    "cut-off") {
     PairCache cache;
     keep(cache, a, b, 95);  // more than the budget of 90 dB: who knows how much
     CHECK(kept(cache, a, b, Db{80}) == 95);
@@ -85,8 +88,7 @@ TEST_CASE("pair cache: a loss known only to exceed a cut-off is not reused for a
     CHECK(kept(cache, a, b, Db{91}) == std::nullopt);
 }
 
-TEST_CASE(
-    "pair cache: the cut-off for a sender's new losses is at least that of its stored losses") {
+TEST_CASE("pair cache: a sender's new losses have no lower cut-off than its stored losses") {
     PairCache cache;
     keep(cache, a, b, 95);
     CHECK(cache.open(a, Db{80}) == budget);

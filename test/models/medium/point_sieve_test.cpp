@@ -72,7 +72,7 @@ void check(const Points& points, std::uint32_t begin, std::uint32_t end, float s
 }  // namespace
 
 TEST_CASE(
-    "point sieve: points within reach are kept in order, with and without vector instructions") {
+    "point sieve: exactly the points within reach pass, with and without vector instructions") {
     test::Draw draw(23);
     for (int count = 0; count < 40; ++count) {
         Points points(draw, count);

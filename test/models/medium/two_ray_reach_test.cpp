@@ -88,7 +88,8 @@ TEST_CASE(
     CHECK(links > 3000);
 }
 
-TEST_CASE("two-ray: if all antennas have one height, the distance alone decides links, exactly") {
+TEST_CASE(
+    "two-ray: with equal antenna heights, distance alone decides exactly whether a link is up") {
     Ground ground(1);
     const Radio radio{.power = {10}, .antenna_height = {1.5}};
     const auto add = [&](double x) {

@@ -135,7 +135,7 @@ Emission frame_of(Medium& medium, NodeId from, Time t, const Legs& legs) {
 }  // namespace
 
 TEST_CASE(
-    "variation: receivers are those of a search over all pairs, at or above the sensitivity") {
+    "variation: exactly the robots at which the level exceeds the sensitivity are receivers") {
     for (const Variation& v : variations()) {
         CAPTURE(std::string(v.name));
         Twins twins(v, 3);
@@ -185,7 +185,7 @@ TEST_CASE("variation: shadowing of sigma 0 has no effect") {
 }
 
 TEST_CASE(
-    "variation: shadowing of links equals the shadowing of log_distance with the same sigma") {
+    "variation: shadowing of links equals that of the model `log_distance` with the same sigma") {
     Medium own({.scene = &open_field, .seed = 4, .replication = 1});
     Medium over({.scene = &open_field,
                  .shadowing = {.model = ShadowingModel::link, .sigma = Db{7}},
@@ -292,7 +292,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "variation: with fading by place, a robot that returns to a place has the same level again") {
+    "variation: if fading depends on the place, a robot that returns to a place has the same level "
+    "again") {
     Medium medium({.scene = &open_field,
                    .fading = {.model = FadingModel::rayleigh, .coherence = Coherence::place}});
     Legs legs;
@@ -368,8 +369,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "shadowing: link changes are exact to the tolerance with the model field, and to 1 ns with "
-    "the model link") {
+    "shadowing: times of link changes are exact to the tolerance with the model `field`, and to 1 "
+    "ns with the model `link`") {
     const Scene scene;
     for (const Shadowing& shadowing : {link_shadowing, field_shadowing}) {
         Medium medium({.scene = &scene, .shadowing = shadowing, .seed = 5});

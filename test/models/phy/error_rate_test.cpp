@@ -385,7 +385,8 @@ TEST_CASE("ofdm: the bound on bit errors sums the lowest path weights of each pu
     }
 }
 
-TEST_CASE("error rate: with every compiler, the results are equal to the last bit") {
+TEST_CASE(
+    "error rate: with every compiler, rates of errors and success are equal to the last bit") {
     std::uint64_t sum = 0;
     for (const Modulation modulation : all) {
         for (int i = -300; i < 400; ++i) {
@@ -397,7 +398,8 @@ TEST_CASE("error rate: with every compiler, the results are equal to the last bi
     CHECK(sum == 0x478273263e15067e);
 }
 
-TEST_CASE("error rate: at certain_sinr every frame succeeds, and 1 dB below it a frame may fail") {
+TEST_CASE(
+    "error rate: at the SINR `certain_sinr` every frame succeeds; 1 dB below it a frame may fail") {
     constexpr double bits = 8 * 0x1p32;
     for (const Modulation modulation : all) {
         CAPTURE(static_cast<int>(modulation));

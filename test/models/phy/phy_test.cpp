@@ -50,7 +50,8 @@ TEST_CASE(
     });
 }
 
-TEST_CASE("every phy: success grows with the signal, and is certain at an SINR of certain_sinr") {
+TEST_CASE(
+    "every phy: the success probability grows with the SINR, and is 1 at the SINR `certain_sinr`") {
     for_each_phy([](const Phy& phy) {
         for (const BitRate rate : phy.rates()) {
             REQUIRE(phy.coding(rate));
@@ -81,7 +82,7 @@ TEST_CASE("wifi: there are twelve bit rates, with the error rates of their modul
     CHECK(phy.certain_sinr(*phy.coding(1_Mbps)) == certain_sinr(Modulation::dsss_1));
 }
 
-TEST_CASE("wifi: with the framing of a standard, data takes whole symbols or whole microseconds") {
+TEST_CASE("wifi: 802.11a data takes whole symbols, 802.11b data takes whole microseconds") {
     // 802.11-2020, 17.4.3: 16 + 8 n + 6 bits in symbols of 216 bits, 4 us each; 106 bytes and the
     // tail just do not fit into four.
     for (const auto& [bytes, symbols] : {std::pair{105U, 4}, {106U, 5}}) {

@@ -25,7 +25,7 @@ TEST_CASE("disc: at the next number above the range, the loss is 1000 dB") {
     CHECK(loss_at(Disc{.range = 100_m}, 1e9) == 1000);
 }
 
-TEST_CASE("disc: with range 0 m only robots at one place are linked") {
+TEST_CASE("disc: with range 0 m, only robots at the same position are linked") {
     CHECK(loss_at(Disc{.range = 0_m}, 0) == 0);
     CHECK(loss_at(Disc{.range = 0_m}, 1e-9) == 1000);
 }
@@ -34,7 +34,7 @@ TEST_CASE("disc: height differences count as distance") {
     CHECK(test::OneLink{.to = {0, 0, 11}}.loss(Disc{.range = 10_m}) == 1000);
 }
 
-TEST_CASE("disc: frequency has no effect") {
+TEST_CASE("disc: the frequency has no effect on the loss") {
     CHECK(loss_at(Disc{.range = 10_m}, 10, {1}) == 0);
     CHECK(loss_at(Disc{.range = 10_m}, 10.1, {1}) == 1000);
 }

@@ -96,7 +96,7 @@ TEST_CASE("storeys: without a storey height no floors are counted, at any antenn
         }
 }
 
-TEST_CASE("storeys: the losses of multi_wall between storeys equal those of COST 231") {
+TEST_CASE("storeys: losses of the model `multi_wall` between storeys equal those of COST 231") {
     const test::Vectors vectors("cost231_multiwall.csv");
     constexpr int light = 1, heavy = 4, apart = 8;  // [cells]: 5 cm, 20 cm
     for (std::size_t i = 0; i < vectors.size(); ++i) {
@@ -170,7 +170,7 @@ TEST_CASE("storeys: there are no ceilings below the lowest floor and above the h
 }
 
 TEST_CASE(
-    "storeys: itu_indoor counts ceilings only if an environment is given and no number of floors") {
+    "storeys: `itu_indoor` counts ceilings only if given an environment but no number of floors") {
     const ItuIndoor office{.environment = Environment::office};
     const Hertz f = 1900_MHz;
     const double d = std::sqrt(64 + 36.0);
@@ -203,14 +203,14 @@ TEST_CASE("storeys: models that ignore walls also ignore ceilings") {
     CHECK(loss(LogDistance{}, scene, 1, 4) == loss(LogDistance{}, Scene{}, 1, 4));
 }
 
-TEST_CASE("storeys: a ceiling blocks the line of sight of itu_site_general") {
+TEST_CASE("storeys: for the model `itu_site_general`, a ceiling blocks the line of sight") {
     const ItuSiteGeneral office{}, blocked{.los = LineOfSight::no};
     const Scene scene = empty_storeys(2);
     CHECK(loss(office, scene, 1, 2) < loss(blocked, scene, 1, 2));
     CHECK(loss(office, scene, 1, 4) == loss(blocked, scene, 1, 4));
 }
 
-TEST_CASE("storeys: the model rays refuses several storeys") {
+TEST_CASE("storeys: the model `rays` refuses a scene with several storeys") {
     CHECK_NOTHROW(Propagation(Rays{}).check_scene(empty_storeys(1)));
     CHECK_THROWS_AS(Propagation(Rays{}).check_scene(empty_storeys(2)), std::invalid_argument);
     CHECK_NOTHROW(Propagation(MultiWall{}).check_scene(empty_storeys(2)));

@@ -98,7 +98,8 @@ TEST_CASE("itu_indoor: below 1 m the loss is the value at 1 m") {
 }
 
 TEST_CASE(
-    "itu_indoor: a frequency must be within a factor of 1.5 of one in the environment's table") {
+    "itu_indoor: a frequency must be within a factor of 1.5 of a frequency in the environment's "
+    "table") {
     const ItuIndoor office = indoor({}, Environment::office);
     CHECK_NOTHROW(office.check_frequency(601_MHz));
     CHECK_THROWS_AS(office.check_frequency(599_MHz), std::invalid_argument);
@@ -135,7 +136,7 @@ TEST_CASE("itu_indoor: zero floors cost nothing, in any environment") {
     }
 }
 
-TEST_CASE("itu_indoor: floors are counted from the storeys of the antennas") {
+TEST_CASE("itu_indoor: the number of floors follows from the storeys of the two antennas") {
     const ItuIndoor office = indoor({}, Environment::office);
     const double same = between(office, 1, 2.9);
     CHECK(near(between(office, 2.9, 3.1) - same, 15, tolerance));  // Lf = 15 + 4 (n - 1)

@@ -49,7 +49,7 @@ TEST_CASE("log_distance: ten times the distance adds 10 n dB, n being the expone
     CHECK(near(loss_at(median, 500) - loss_at(median, 50), 25, tolerance));
 }
 
-TEST_CASE("log_distance: up to the reference distance the loss is constant, that of free space") {
+TEST_CASE("log_distance: up to the reference distance d0, the loss is the free-space loss at d0") {
     const LogDistance model{.sigma = 0_dB, .reference_distance = 10_m};
     for (const double d : {0.0, 1e-9, 5.0, 10.0}) {
         CHECK(near(loss_at(model, d), loss_at(Friis{}, 10), tolerance));

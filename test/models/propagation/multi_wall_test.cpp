@@ -78,7 +78,8 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("multi_wall: a wall counts as light by its own thickness, at any angle of the ray") {
+TEST_CASE(
+    "multi_wall: whether a wall counts as light depends on its thickness, not on the ray's angle") {
     // 5 cm thick, the ray at up to 63 degrees to its normal: 11 cm of chord.
     const Scene scene(strip(2, {{20, 1}}));
     const auto loss = [&](Vec3 from, Vec3 to) {
@@ -124,7 +125,7 @@ TEST_CASE("multi_wall: an oblique wall drawn in steps counts as one wall") {
 }
 
 TEST_CASE(
-    "multi_wall: a loss of the wall's material, per crossing or metre, replaces the model's") {
+    "multi_wall: a material's own loss, per crossing or metre, replaces the model's wall loss") {
     const auto through = [](Material material) {
         const Scene scene(strip(4, {{20, 4}}), {std::move(material)});
         return loss_through(scene, 3) - loss_through(Scene{}, 3);

@@ -172,7 +172,8 @@ TEST_CASE("property: every loss has the same bits in both directions, so no link
     }));
 }
 
-TEST_CASE("property: a link's loss is the same alone and in a batch of any size and order") {
+TEST_CASE(
+    "property: a link's loss is the same if computed alone or in a batch of any size and order") {
     CHECK(holds("batches", [] {
         const Vec3 from = place();
         std::vector<Vec3> to(static_cast<std::size_t>(*rc::gen::inRange(1, 12)));

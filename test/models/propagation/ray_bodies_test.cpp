@@ -254,7 +254,8 @@ TEST_CASE("rays: a reflection from a face grows from 0 as the link leaves the pl
     }
 }
 
-TEST_CASE("rays: a link 1 mm in front of a block's face has the loss of a link 1 mm behind it") {
+TEST_CASE(
+    "rays: links 1 mm in front of and 1 mm behind the face of a block have nearly the same loss") {
     const Scene wide = drawn(block(-1, 0, 1, 1.5), metal);
     for (const auto by : both) {
         const Rays model{.order = 0, .diffraction = by};

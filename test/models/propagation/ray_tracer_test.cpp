@@ -219,7 +219,8 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("ray tracer: images in perpendicular walls have the lengths of their closed form") {
+TEST_CASE(
+    "ray tracer: reflected paths between perpendicular walls have the lengths of the closed form") {
     const Scene scene = hollow(8, 6, 0.5);
     const Vec3 a{1.2, 2.1, 1}, b{6.3, 4.4, 2.5};
     RayTracer tracer(scene, a, 2, 0.1);

@@ -107,8 +107,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "rays: in a coherent sum, direct and reflected ray add by phase, with a null close to the "
-    "mirror") {
+    "rays: in a coherent sum, direct and reflected ray add by phase, with a null near the "
+    "reflecting wall") {
     const Material mirror{.per_crossing = 200_dB};
     const Scene scene = drawn(40, 6, 0.1, bar(-20, 20, 0.1), mirror);
     const Rays coherent{.order = 1,
@@ -147,7 +147,7 @@ TEST_CASE("rays: max_paths keeps the strongest paths") {
 }
 
 TEST_CASE(
-    "rays: the paths that max_paths leaves out are counted, and so is their effect on the loss") {
+    "rays: the paths that `max_paths` leaves out are counted, and so is their effect on the loss") {
     const Scene scene = drawn(
         12, 8, 0.5, [](double x, double y) { return std::abs(x) > 5.5 || std::abs(y) > 3.5; });
     const Vec3 from{-3, 1}, to{2, -1.3};
@@ -180,7 +180,8 @@ TEST_CASE("rays: behind a screen the path around it has the loss of a knife edge
                0.1));
 }
 
-TEST_CASE("rays: behind and beside a half screen, utd is within 0.3 dB of Fresnel's field") {
+TEST_CASE(
+    "rays: behind and beside a half screen, the method `utd` is within 0.3 dB of Fresnel's field") {
     const Scene scene = drawn(24, 12, 0.01, bar(-12, 0, 0.01));
     const Rays utd{.order = 0, .diffraction = RayDiffraction::utd};
     for (double x = -1; x < 1; x += 0.05) {

@@ -232,7 +232,8 @@ TEST_CASE(
     CHECK(wrong == 0);
 }
 
-TEST_CASE("shadowed range: with sigma 0, the range is the model's largest distance, for any draw") {
+TEST_CASE(
+    "shadowed range: with sigma 0, any random draw gives the largest distance within the budget") {
     for (const double budget : {-1.0, 0.0, 40.0, 80.0, 120.0}) {
         CAPTURE(budget);
         const Setting setting{.model = {.sigma = 0_dB}, .budget = {budget}};
@@ -341,7 +342,9 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("shadowed range: only log_distance offers a range; links by range equal links by loss") {
+TEST_CASE(
+    "shadowed range: only `log_distance` has such a range, which gives the same links as the "
+    "loss") {
     for_each_model([]<class Model>() {
         const Propagation model{[] {
             if constexpr (std::same_as<Model, Disc>)

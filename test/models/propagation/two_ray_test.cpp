@@ -89,7 +89,7 @@ TEST_CASE("two-ray, exact: a ground with the permittivity of air reflects nothin
     }
 }
 
-TEST_CASE("two-ray: levels equal those of ns-2.35, if its speed of light is used") {
+TEST_CASE("two-ray: levels equal those of ns-2.35, if the speed of light of ns-2 is used") {
     const test::Vectors vectors("peer_ns2_loss.csv");
     int compared = 0;
     for (std::size_t i = 0; i < vectors.size(); ++i) {
@@ -104,7 +104,7 @@ TEST_CASE("two-ray: levels equal those of ns-2.35, if its speed of light is used
     CHECK(compared == 54);
 }
 
-TEST_CASE("two-ray: levels equal ns-3.37 beyond 0.5 m, at three heights") {
+TEST_CASE("two-ray: beyond 0.5 m levels equal those of ns-3.37, at three heights") {
     const test::Vectors vectors("peer_ns3_loss.csv");
     int compared = 0;
     for (std::size_t i = 0; i < vectors.size(); ++i) {
@@ -171,7 +171,8 @@ TEST_CASE(
     CHECK(loss_over_ground(0, 0, 250, 914_MHz, high) == loss_over_ground(1.5, 1.5, 250, 914_MHz));
 }
 
-TEST_CASE("two-ray: both directions are equal to the last bit, also beyond the crossover") {
+TEST_CASE(
+    "two-ray: the loss is equal in both directions to the last bit, also beyond the crossover") {
     for (int i = 0; i < 1000; ++i) {
         const double ht = 0.1 + 0.00317 * i, hr = 2.9 - 0.00213 * i;
         CHECK(loss_over_ground(ht, hr, 3e3, 2450_MHz) == loss_over_ground(hr, ht, 3e3, 2450_MHz));

@@ -28,7 +28,8 @@ bool survives(const Collision& model, Arrival f, Arrival g) {
 
 }  // namespace
 
-TEST_CASE("collision: frames that overlap are lost, and frames that only adjoin are received") {
+TEST_CASE(
+    "collision: frames that overlap are lost; frames that follow without a gap are received") {
     const Arrival first = frame(10, 110, -60), second = frame(60, 160, -60);
     const Arrival third = frame(160, 260, -60);
     CHECK_FALSE(survives({}, first, second));
@@ -74,8 +75,7 @@ TEST_CASE("collision: a node receives no frame that overlaps its own transmissio
 }
 
 TEST_CASE(
-    "collision: with CaptureOrder::first, a receiver is busy for a frame that begins during "
-    "another frame") {
+    "collision: with CaptureOrder::first, a frame begun during another finds the receiver busy") {
     const Arrival first = frame(0, 100, -50), second = frame(50, 150, -50);
     const Collision in_order, any_order{.capture = CaptureOrder::later};
     CHECK(in_order.finds_receiver_at(second, first));
@@ -85,7 +85,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "collision: a frame that begins during a frame stronger by the capture ratio is ignored") {
+    "collision: a frame is ignored if it begins during one that is stronger by the capture ratio") {
     const auto lets_pass = [](Arrival f, Arrival g) {
         return Collision{}.lets_pass(f, g, [](const Arrival& a, const Arrival& b, Db by) {
             return a.level_dbm >= b.level_dbm + by.value;

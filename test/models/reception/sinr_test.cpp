@@ -157,7 +157,7 @@ TEST_CASE(
     CHECK(r.judge(second) == Fate::collided);
 }
 
-TEST_CASE("sinr: a random draw decides only frames whose bits may fail") {
+TEST_CASE("sinr: a random draw decides only about frames whose bits may be wrong") {
     Receiver r;
     const double weak = -94 + certain_sinr(Modulation::cck_11).value - 8;
     for (const bool lucky : {true, false}) {

@@ -69,7 +69,8 @@ TEST_CASE("fading: quantiles of the power equal the test vectors") {
     CHECK(test::near(10 * std::log10(rayleigh.quantile(0.01)), -19.98, 0.005));
 }
 
-TEST_CASE("fading: gains are limited to the quantile of 1 - 1e-6, which is 11.4 dB for rayleigh") {
+TEST_CASE(
+    "fading: gains are limited to the quantile of 1 - 1e-6, which is 11.4 dB for Rayleigh fading") {
     CHECK(test::near(Fades({.model = FadingModel::rayleigh}, 1, 0).most().value, 11.404, 5e-4));
     const Fading even{.model = FadingModel::nakagami, .m = 1};
     CHECK(test::near(Fades(even, 1, 0).most().value, 11.404, 5e-4));
@@ -85,7 +86,8 @@ TEST_CASE("fading: with a strong line of sight the power stays within 1.5 dB of 
     }
 }
 
-TEST_CASE("fading: with fading by frame, powers have the theoretical distribution, with mean 1") {
+TEST_CASE(
+    "fading: if each frame has its own gain, powers have the theoretical distribution and mean 1") {
     for (const Fading& settings : all_settings(Coherence::frame)) {
         const Fades fades(settings, 5, 2);
         std::vector<double> powers;
@@ -97,7 +99,8 @@ TEST_CASE("fading: with fading by frame, powers have the theoretical distributio
     }
 }
 
-TEST_CASE("fading: P(g < 0.1) of rayleigh is 0.09516, because g is a power and not an amplitude") {
+TEST_CASE(
+    "fading: in Rayleigh fading, P(g < 0.1) is 0.09516, as g is a power and not an amplitude") {
     const Fades fades({.model = FadingModel::rayleigh}, 6, 0);
     int below = 0;
     constexpr int n = 40'000;
@@ -122,8 +125,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "fading: with fading by place, powers have the theoretical distribution, with mean 1 over the "
-    "seeds") {
+    "fading: if fading depends on the place, powers have the theoretical distribution, with mean 1 "
+    "over the seeds") {
     for (const Fading& settings : all_settings(Coherence::place)) {
         std::vector<double> powers;
         for (std::uint64_t seed = 0; seed < 40; ++seed) {
@@ -139,7 +142,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "fading: with fading by place, a robot back at a place has the same gain, in both directions") {
+    "fading: if fading depends on the place, a robot that returns to a place has the same gain, in "
+    "both directions") {
     for (const Fading& settings : all_settings(Coherence::place)) {
         const Fades fades(settings, 5, 2);
         for (int i = 0; i < 50; ++i) {
@@ -153,7 +157,8 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("fading: as one end moves, the power has the correlation J0^2 of Jakes' model") {
+TEST_CASE(
+    "fading: as one end of a link moves, the power has the correlation J0^2 of Jakes' model") {
     const test::Vectors vectors("jakes_autocorr_2450MHz.csv");
     std::vector<Fades> seeds;
     for (std::uint64_t seed = 0; seed < 300; ++seed) {
@@ -188,7 +193,8 @@ TEST_CASE("fading: as one end moves, the power has the correlation J0^2 of Jakes
     CHECK(rows >= 4);
 }
 
-TEST_CASE("fading: a moving robot crosses levels as often as Rice's formula predicts") {
+TEST_CASE(
+    "fading: the power at a moving robot crosses levels as often as Rice's formula predicts") {
     const test::Vectors vectors("rayleigh_lcr_afd.csv");
     constexpr int seeds = 40, steps = 2000;
     constexpr double step = 0.02;  // wavelengths
@@ -258,7 +264,8 @@ std::vector<double> crossings_over_theory(double m, const std::vector<double>& l
 
 }  // namespace
 
-TEST_CASE("fading: with nakagami fading by place, levels are crossed as often as in theory") {
+TEST_CASE(
+    "fading: if Nakagami fading depends on the place, levels are crossed as often as in theory") {
     constexpr double noise = 0.13;  // of 40 fields of 32 waves, and of a hundred crossings or more
     for (const double m : {0.5, 1.5, 2.0, 3.0}) {
         std::vector<double> levels{-10, -5, 0, 3};

@@ -105,8 +105,8 @@ TEST_CASE("shadowing field: values have mean 0 and variance 1, at any distance b
 }
 
 TEST_CASE(
-    "shadowing field: as either end moves, the correlation is e^(-D / d_cor), as in the test "
-    "vectors") {
+    "shadowing field: as either end of a link moves by D, the correlation is e^(-D / d_cor), as in "
+    "the test vectors") {
     const test::Vectors vectors("field_correlation.csv");
     int rows = 0;
     for (std::size_t row = 0; row < vectors.size(); ++row) {
@@ -130,7 +130,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "shadowing field: as both ends move, the correlation is the product of their correlations") {
+    "shadowing field: as both ends of a link move, the correlations for the two ends multiply") {
     const Moments m = moments([&](std::uint64_t seed, std::uint64_t i) {
         const Vec3 a = place(seed, i), b = a + Vec3{0, 80, 0};
         return Pairs{a, b, a + Vec3{3, 0, 0}, b + Vec3{0, 5, 0}};
@@ -138,7 +138,7 @@ TEST_CASE(
     CHECK(test::near(m.correlation(), std::exp(-0.8), 0.03));
 }
 
-TEST_CASE("shadowing field: heights have no effect") {
+TEST_CASE("shadowing field: the heights of the two ends have no effect") {
     const ShadowingField field(decorrelation, 7, 1);
     CHECK(field({1, 2, 0}, {30, 4, 9}) == field({1, 2, 5}, {30, 4, 0}));
 }

@@ -241,7 +241,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("chart: overlapping points of a scatter are drawn side by side") {
+TEST_CASE("chart: overlapping points of a scatter chart are drawn side by side") {
     Chart scatter = one_series(ChartKind::scatter, {});
     for (int i = 0; i < 5; ++i) {
         scatter.series[0].points.push_back(
@@ -353,7 +353,7 @@ TEST_CASE("chart: if every cell of a heat map has a value, no missing cell is dr
     CHECK(of_class(svg_elements(text), "missing").empty());
 }
 
-TEST_CASE("chart: values are printed in cells that are large enough, and only there") {
+TEST_CASE("chart: a heat map prints values only in cells that are large enough") {
     Chart heat = one_series(ChartKind::heat_map, {{.x = 0, .y = 0.25}, {.x = 1, .y = 0.875}});
     CHECK(has(drawn(heat), ">0.250</text>"));
     for (int i = 2; i < 60; ++i) heat.series[0].points.push_back({.x = double(i), .y = 0.5});
@@ -368,7 +368,7 @@ TEST_CASE("chart: a heat map prints values in dark on light cells, and in white 
     }
 }
 
-TEST_CASE("chart: labels of a scatter overlap neither each other nor marks") {
+TEST_CASE("chart: labels of a scatter chart overlap neither other labels nor marks") {
     Chart scatter = one_series(ChartKind::scatter, {});
     for (int i = 0; i < 60; ++i) {
         const double x = (i * 37) % 61, y = (i * 23) % 59;
@@ -489,7 +489,7 @@ TEST_CASE(
     CHECK(count("fill", color) == 2);
 }
 
-TEST_CASE("chart: overlapping marks are moved apart only if they have intervals") {
+TEST_CASE("chart: overlapping marks are moved apart only if they have error bars") {
     Chart chart{.kind = ChartKind::lines,
                 .series = {{"a", {{.x = 1, .y = 1}, {.x = 2, .y = 2}}},
                            {"b", {{.x = 1, .y = 1}, {.x = 2, .y = 3}}}}};

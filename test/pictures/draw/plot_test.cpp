@@ -42,7 +42,7 @@ TEST_CASE("plot: an extent includes given discs and points, and can be enlarged"
 }
 
 TEST_CASE(
-    "plot: a plot fills its width or height, y points up, and both axes have the same scale") {
+    "plot: a plot fills its width or height, with the y axis upwards and one scale for both axes") {
     const Plot wide(extent({0, 0}, {20, 10}), {16, 50}, {.width = 1000, .height = 900});
     CHECK(near(wide.scale, 50));
     CHECK((near(wide.width, 1000) && near(wide.height, 500)));
@@ -118,9 +118,7 @@ TEST_CASE(
     CHECK(legend.height(10) == 6 * 20);
 }
 
-TEST_CASE(
-    "legend: a caption is broken between the parts that dots separate, and a long part between "
-    "words") {
+TEST_CASE("legend: a long caption is broken between its parts, and a long part between its words") {
     const std::string dot = " \xc2\xb7 ";
     CHECK(wrapped({"one", "two"}, 1000, 12) == std::vector<std::string>{"one" + dot + "two"});
     CHECK(wrapped({"one", "two"}, 30, 12) == std::vector<std::string>{"one", "two"});

@@ -66,7 +66,8 @@ double length(const std::vector<ContourLine>& lines) {
 
 }  // namespace
 
-TEST_CASE("contour: in free space the line is a circle with the model's reach, counter-clockwise") {
+TEST_CASE(
+    "contour: in free space, the line is a counter-clockwise circle whose radius is the reach") {
     const Scene scene;
     const Radio weak{.power = {-30}};
     const Transmitter t{.model = Friis{}, .radio = weak, .antenna = {1, -2, 1}, .scene = &scene};

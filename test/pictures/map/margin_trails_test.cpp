@@ -114,7 +114,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "margins: with the model disc a trail shows only link or gap, and a long list of robots is "
+    "margins: with the model `disc` a trail shows only link or gap, and a long list of robots is "
     "shortened") {
     std::string text = road + "[propagation]\nmodel = \"disc\"\nrange = \"60 m\"\n";
     for (int i = 0; i < 4; ++i) {

@@ -128,7 +128,7 @@ struct EmptyPath {
 }  // namespace
 
 TEST_CASE(
-    "picture: the picture of the example rescue is well-formed, and has equal bytes when drawn "
+    "picture: the picture of the example `rescue` is well-formed, and has equal bytes when drawn "
     "twice") {
     const std::string svg = draw_svg(rescue(), everything);
     CHECK(test::xml_fault(svg) == "");
@@ -268,8 +268,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "picture: the coverage of several robots with model disc shows ranges, and disc beside other "
-    "models is refused") {
+    "picture: the coverage of several robots shows ranges if all have the model `disc`, and is "
+    "refused if only some have it") {
     const auto disc = [](int range) {
         return fmt::format("propagation = {{ model = \"disc\", range = \"{} m\" }}\n", range);
     };
@@ -471,7 +471,7 @@ TEST_CASE(
                          doctest::Contains("one storey"), std::invalid_argument);
 }
 
-TEST_CASE("picture: the coverage on another storey includes the ceiling") {
+TEST_CASE("picture: the coverage on another storey includes the loss of the ceiling") {
     Scenario s =
         scenario(robot("A", 1.5, 0.5) +
                  "[propagation]\nmodel = \"multi_wall\"\n[radio]\nantenna_height = \"1 m\"\n");
@@ -539,7 +539,7 @@ TEST_CASE("picture: an unknown robot, or an option out of range, is refused") {
     CHECK_THROWS_AS(draw_svg(s, {.at = start_of_run - 1s}), std::invalid_argument);
 }
 
-TEST_CASE("picture: links among too many robots are refused") {
+TEST_CASE("picture: drawing the links among too many robots is refused") {
     const Scenario s = scenario(
         "[[robot]]\nname = \"r\"\ncount = 5001\n"
         "place = { area = [[\"0 m\", \"0 m\"], [\"9 m\", \"9 m\"]] }\n");
@@ -586,7 +586,7 @@ TEST_CASE("picture: ticks of the axes are at the coordinates of their labels") {
           2 * rounding);
 }
 
-TEST_CASE("picture: names without room are counted in the legend") {
+TEST_CASE("picture: names for which there is no room are counted in the legend") {
     std::string crowd;
     for (int i = 0; i < 40; ++i) crowd += robot(fmt::format("robot number {}", i), 1 + 1e-3 * i, 1);
     CHECK(has(draw_svg(scenario(crowd + robot("far", 500, 1)), {}), "no room for"));

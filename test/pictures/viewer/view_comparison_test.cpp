@@ -66,7 +66,8 @@ TEST_CASE(
     CHECK(test::ViewReader::integer(told, "same") == 4);
 }
 
-TEST_CASE("view of a comparison: the file has the first difference, or null for an ended trace") {
+TEST_CASE(
+    "view of a comparison: the file has the first difference, with null for a trace that ended") {
     const test::ViewReader view = written(comparison());
     const Table& first = *view.head().find("compare")->table()->find("first")->table();
     CHECK(*first.find("field")->string() == "time");

@@ -237,7 +237,7 @@ TEST_CASE(
         const auto damage = sentences(view, "damage");
         REQUIRE(damage.size() >= 2);
         CHECK(damage[0] == "The trace is damaged: the end is missing.");
-        CHECK(damage[1].find("It reaches up to ") == 0);
+        CHECK(damage[1].find("The trace reaches up to ") == 0);
         CHECK(damage[1].find(" s of 90 s") != std::string::npos);
         with_records += damage[1].find("up to 0.0") == std::string::npos ? 1 : 0;
     }

@@ -307,7 +307,7 @@ TEST_CASE(
 }
 
 // While a sends a long message, it begins to send a short message and another long message.
-TEST_CASE("view of a run: frames of one robot that overlap keep their receptions and airtimes") {
+TEST_CASE("view of a run: overlapping frames of one robot keep their receptions and airtimes") {
     for (const auto& [rate, long_ms, short_ms] :
          {std::tuple{"250 kb/s", 48.192, 0.224}, std::tuple{"100 b/s", 120'000.192, 80.192}}) {
         CAPTURE(rate);

@@ -221,7 +221,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "aodv: long-lived routes have no loops only if sequence numbers are kept as long as routes") {
+    "aodv: long-lived routes are loop-free only if sequence numbers are kept as long as routes") {
     Aodv aodv{.active_route_timeout = 500ms, .my_route_timeout = 20s, .node_traversal_time = 20ms};
     AodvRules rules = AodvRules::of(aodv);
     check(findings(250, {.rules = rules}));

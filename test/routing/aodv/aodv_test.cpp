@@ -94,7 +94,8 @@ TEST_CASE("aodv 6.2: a message extends its routes to source, destination, last h
 }
 
 TEST_CASE(
-    "aodv 6.3, 6.4: a search covers 1, 3, 5, 7 hops, three times the whole network, then fails") {
+    "aodv 6.3, 6.4: a search covers 1, 3, 5, 7 hops, then three times the whole network, and then "
+    "fails") {
     AodvNode n;
     n.send(5);
     std::vector<int> ttls{n.sent<aodv::Request>().back().first.ttl};

@@ -172,7 +172,7 @@ TEST_CASE("cluster: a copy to be forwarded waits for the delay, any other copy i
     }
 }
 
-TEST_CASE("cluster: a threshold of any value, and a HELLO period of 0, are refused") {
+TEST_CASE("cluster: the key `threshold` with any value, and a HELLO period of 0, are refused") {
     const auto make = [](const Suppression& settings) { return Router(settings); };
     CHECK_THROWS_WITH_AS(make({.scheme = SuppressionScheme::cluster, .threshold = 3}),
                          "suppression: threshold must be left out for scheme \"cluster\", got 3",
@@ -182,7 +182,8 @@ TEST_CASE("cluster: a threshold of any value, and a HELLO period of 0, are refus
 }
 
 TEST_CASE(
-    "cluster on graphs: cluster heads follow the definition, and all connected nodes are reached") {
+    "cluster on graphs: cluster heads are as defined, and all nodes connected to the source are "
+    "reached") {
     for (const int k : {1, 3, 5, 7, 9}) {
         double saved = 0;
         constexpr int maps = 5;

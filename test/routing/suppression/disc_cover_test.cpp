@@ -54,13 +54,14 @@ double counted(const std::vector<Vec3>& centres) {
 }  // namespace
 
 TEST_CASE(
-    "disc cover: without neighbours a disc is uncovered; a disc at the same position covers all") {
+    "disc cover: without neighbours, a disc is uncovered; a disc at the same place covers it "
+    "fully") {
     CHECK(uncovered({}) == 1);
     CHECK(uncovered({{2, 0, 0}, {0, -3, 0}}) == 1);
     CHECK(uncovered({{0.5, 0, 0}, {0, 0, 0}}) == 0);
 }
 
-TEST_CASE("disc cover: a disc at any distance covers the area of the common lens") {
+TEST_CASE("disc cover: a neighbour's disc at any distance covers the lens common to both discs") {
     for (const double d : {0.001, 0.1, 0.5, 1.0, 1.5, 1.999}) {
         for (const double angle : {0.0, 1.0, 2.5, pi, -2.0, -pi / 2}) {
             CAPTURE(d);

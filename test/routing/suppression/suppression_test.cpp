@@ -209,7 +209,7 @@ TEST_CASE("suppression: a threshold out of its scheme's range is refused, and th
         {of(Scheme::location, 2),
          "suppression: threshold must be from 0 to 1 for scheme \"location\", got 2"},
         {{.scheme = Scheme::location},
-         "suppression: range must be given, > 0 m for scheme \"location\""},
+         "suppression: range must be given; expected a value > 0 m for scheme \"location\""},
         {{.scheme = Scheme::location, .range = Meters{0}}, "suppression: range must be > 0, got 0"},
         {{.delay = -1ns}, "suppression: delay must be from 0 to 1e9 s, got -1e-09"},
         {{.ttl = 0}, "suppression: ttl must be from 1 to 65535, got 0"}};

@@ -83,7 +83,8 @@ TEST_CASE("for a model that rovernet lacks, the hint names the page that lists r
         CHECK(hint("access", access) == access + there);
 }
 
-TEST_CASE("a name that is unknown, malformed, or known but for a different table gets no hint") {
+TEST_CASE(
+    "no hint is given for a name that is unknown, malformed or belongs to a different table") {
     CHECK(hint("routing", "TwoRayGround").empty());
     CHECK(hint("propagation", "OLSR").empty());
     CHECK(hint("fading", "Shadowing").empty());

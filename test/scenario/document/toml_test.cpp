@@ -125,7 +125,8 @@ TEST_CASE("toml: if a key or table occurs twice in any notation, the error has i
         }
     };
     const std::string once = " occurs a second time; expected the key once";
-    const std::string together = " occurs a second time; expected all its keys in one table";
+    const std::string together =
+        " occurs a second time; expected all keys of this table in one place";
     check("r = [{ n = 1 }]\nr.x = 1", "2:1: the key \"r\"" + once);
     check("r = { a = 1 }\nr.b = 2", "2:1: the key \"r\"" + together);
     check("[s]\nvary.radio = [1]\nvary.radio.power = [2]", "3:6: the key \"vary.radio\"" + once);
@@ -140,10 +141,12 @@ TEST_CASE("toml: if a key or table occurs twice in any notation, the error has i
     check("[[robot]]\n[ robot ]",
           "2:1: [robot] occurs a second time; in a list of tables, write [[robot]] before each "
           "table");
-    check("x.y = 1\n[x]", "2:1: [x] occurs a second time; expected one [x] with all its keys");
+    check("x.y = 1\n[x]",
+          "2:1: [x] occurs a second time; expected one header [x], and all keys of this table "
+          "below it");
     const std::string inside =
         "2:1: [x.y]: this name begins with a key that already has a value, so no keys can be added "
-        "to that key; expected all keys of a table in one place";
+        "to that key; give this table a different name, or remove that key";
     check("x = 1\n[x.y]", inside);
     check("x = 1\n[x.y]\nk = 1", inside);
     check("x = 1\n[[x . \"y\"]]\n[[robot]]", std::string(inside).replace(6, 3, "x.\"y\""));
@@ -203,7 +206,8 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("set_option: a number that is the name of a robot never changes a different robot") {
+TEST_CASE(
+    "set_option: if the name of a robot is a number, the number never means a different robot") {
     const std::string text = "[[robot]]\nname = \"1\"\n\n[[robot]]\nname = \"2\"\n";
     const std::string first = "[[robot]]\nname = \"1\"\nradius = 9\n\n[[robot]]\nname = \"2\"\n";
     CHECK(after_option(text, "robot.\"1\".radius=9") == first);

@@ -221,8 +221,8 @@ TEST_CASE("stage scanner: invalid values of laser and ranger are refused, with t
           "3: samples: found 0; expected a whole number from 1 to 10,000; such as samples 181");
     CHECK(mistake("laser ( samples 2.5 )").starts_with("2: samples: found 2.5"));
     CHECK(mistake("laser ( samples \"x\" )").starts_with("2: samples: found a text"));
-    CHECK(mistake("laser (\nfov 400 )").starts_with("3: scan: found a `to` that is "));
-    CHECK(mistake("laser (\nfov -10 )").starts_with("3: scan: found a `to` that is "));
+    CHECK(mistake("laser (\nfov 400 )").starts_with("3: scan: found an angle of "));
+    CHECK(mistake("laser (\nfov -10 )").starts_with("3: scan: found an angle of "));
     CHECK(mistake("laser (\nrange_max 0 )").starts_with("3: range"));
     CHECK(mistake("laser (\nupdate_interval 0 )").starts_with("3: every"));
     CHECK(mistake("laser ( pose 5 )").starts_with("2: pose: found a single value"));

@@ -144,7 +144,7 @@ constexpr double level_tolerance = 1e-3;  // [dB]
 }  // namespace
 
 TEST_CASE(
-    "stage world: a position with a wifi becomes a robot with the same pose, size and radio") {
+    "stage world: a `position` with a `wifi` becomes a robot with the same pose, size and radio") {
     const Read world = read(robot_with +
                             "ip \"192.168.0.2\" netmask \"255.255.0.0\" mac \"08-00-20-ae-fd-7e\" "
                             "essid \"net\" model \"friis\" power 30 freq 2412.5 sensitivity -80 "
@@ -203,8 +203,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "stage world: a wifi without a model uses the model of [propagation]; an unknown model is an "
-    "error") {
+    "stage world: a wifi that names no propagation model uses that of [propagation]; an unknown "
+    "model is an error") {
     const Read none =
         read("position ( name \"a\" wifi ( ) )\nposition ( name \"b\"\nwifi ( plc 22 ) )\n");
     CHECK(none.robot(0).find("propagation") == nullptr);
@@ -297,8 +297,8 @@ TEST_CASE("stage world: a robot that is part of another model has the combined p
 }
 
 TEST_CASE(
-    "stage world: the wifi of a robot that another robot carries belongs only to the carried "
-    "robot") {
+    "stage world: if a robot carries another robot with a wifi, only the carried robot has this "
+    "wifi") {
     const Read world = read(
         "position ( name \"truck\" pose [5 0 180]\n"
         "  position ( name \"a\" pose [1 0 0] wifi ( model \"friis\" ) ) )\n");
@@ -345,7 +345,7 @@ TEST_CASE("stage world: robots without a wifi have the scenario's radio, with on
     CHECK(over.robots[1].radio.sensitivity.value == -75);
 }
 
-TEST_CASE("stage world: a world without robots is a scene, but not a scenario") {
+TEST_CASE("stage world: a world without robots can be loaded as a scene, but not as a scenario") {
     const TemporaryFolder folder;
     const std::string world = folder.write("plan.world", "model ( size [4 2 1] )\n");
     const Scenario scene = load_scenario(world, {.needs_robots = false});
@@ -454,11 +454,12 @@ TEST_CASE("stage world: if two robots have the same address, a notice names both
         "position ( name \"b\" wifi ( model \"friis\" ip \"1.2\" mac \"1.3\" ) )\n");
     REQUIRE(twice.notices.size() == 1);
     CHECK(twice.notices[0] ==
-          "a.world:2: ip \"1.2\" of robot \"b\" is also used by robot \"a\" "
-          "(a.world:1:42)");
+          "a.world:2: the ip \"1.2\" of robot \"b\" is also used by robot \"a\" (a.world:1:42); "
+          "give each robot a different address");
 }
 
-TEST_CASE("stage world: models that are neither robots nor walls are listed in one line") {
+TEST_CASE(
+    "stage world: types of models that are neither robots nor walls are listed in one notice") {
     const Read world = read(
         "window ( )\nmodel ( laser ( ) )\n"
         "position ( name \"a\" laser ( ) ranger ( sensor ( ) ) wifi ( model \"friis\" ) )\n"
@@ -562,7 +563,7 @@ TEST_CASE("stage world: the worlds that came with Stage can be loaded") {
     }
     const Read commando = read_shipped(*folder, "commando.world");
     REQUIRE(commando.notices.size() == 2);
-    CHECK(commando.notices[0].find("commando.world:53: mac \"00:03:03:ac:a7:b5\" of robot "
+    CHECK(commando.notices[0].find("commando.world:53: the mac \"00:03:03:ac:a7:b5\" of robot "
                                    "\"robot2\" is also used by robot \"robot1\"") !=
           std::string::npos);
 }
@@ -572,10 +573,11 @@ TEST_CASE("stage world: a world with a missing bitmap is refused, and loads with
     if (!folder) return;
     WorldOptions options = with_includes(*folder);
     const WorldFile world = read_worldfile(*folder + "/stage-wifi/wifi_ray.world", options);
-    CHECK_THROWS_WITH_AS(stage_walls(world, options),
-                         doctest::Contains("wifi_ray.world:22:3: bitmap: no file "
-                                           "\"bitmaps/cave_f.png\"; tried "),
-                         InputError);
+    CHECK_THROWS_WITH_AS(
+        stage_walls(world, options),
+        doctest::Contains(
+            "wifi_ray.world:22:3: bitmap: no file \"bitmaps/cave_f.png\"; tried the paths "),
+        InputError);
     options.bitmaps = {{"cave_f.png", "cave_filled.png"}};
     const StageWalls walls = stage_walls(world, options);
     REQUIRE(!walls.grids.empty());

@@ -55,7 +55,8 @@ TEST_CASE(
     CHECK(read("[]").empty());
 }
 
-TEST_CASE("scan: a ring has an angle for each beam, and optionally a position for each beam") {
+TEST_CASE(
+    "scan: a ring of sensors has an angle for each beam, and optionally a position for each beam") {
     const auto ring = read(
         "{ kind = \"sonar\", angles = [\"90 deg\", \"-10 deg\"], places = [[\"0.1 m\", \"0.2 m\"], "
         "[\"0 m\", \"-0.2 m\"]] }");
@@ -86,7 +87,7 @@ TEST_CASE("scan: an error in a range finder has the line and column of the wrong
     CHECK(mistake("{ at = \"1 m\" }").starts_with("15: at: found"));
     CHECK(mistake("{ angle = [] }").find("did you mean \"angles\"") != std::string::npos);
     CHECK(mistake("{ angles = [\"0 deg\"] }").starts_with("19: angles: the beams of a laser are"));
-    CHECK(mistake("{ kind = \"sonar\", angles = [] }").starts_with("35: angles: found 0 beams"));
+    CHECK(mistake("{ kind = \"sonar\", angles = [] }").starts_with("35: angles: found 0 angles"));
     CHECK(mistake("{ kind = \"sonar\", places = [] }").find("\"angles\" is missing") !=
           std::string::npos);
     CHECK(mistake("{ kind = \"sonar\", angles = [\"0 deg\"], places = [] }") ==

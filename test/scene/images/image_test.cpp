@@ -35,7 +35,7 @@ std::string bytes_of(std::initializer_list<int> values) {
 
 }  // namespace
 
-TEST_CASE("PNG: gray of every depth is stretched to 0..255") {
+TEST_CASE("PNG: gray values of every bit depth are scaled to 0..255") {
     const Image one = read_bytes(png_bytes({.width = 4, .depth = 1, .rows = {{0b01010000}}}));
     CHECK(one.width == 4);
     CHECK(one.height == 1);
@@ -169,7 +169,7 @@ TEST_CASE("PGM: comments are accepted between any two numbers of the header") {
     CHECK(read_bytes("P2 2 1 # sizes\n255 5 # five\n6").samples == Samples{5, 6});
 }
 
-TEST_CASE("PGM: samples are stretched from any maxval to 255 and rounded to the nearest number") {
+TEST_CASE("PGM: samples are scaled from 0..maxval to 0..255 and rounded to the nearest number") {
     CHECK(read_bytes("P2 4 1 100 0 50 99 100").samples == Samples{0, 128, 252, 255});
     CHECK(read_bytes("P5 2 1 1\n" + bytes_of({0, 1})).samples == Samples{0, 255});
     CHECK(read_bytes("P5 4 1 65535\n" + bytes_of({0x00, 0x80, 0x00, 0x81, 0xff, 0x7f, 0xff, 0xff}))

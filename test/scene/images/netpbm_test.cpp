@@ -27,7 +27,7 @@ bool contains(const std::string& text, const std::string& part) {
 
 }  // namespace
 
-TEST_CASE("PPM: plain and raw colours of any maxval are read") {
+TEST_CASE("PPM: plain (P3) and raw (P6) colours are read, for any maxval") {
     const Image plain = read_bytes("P3 2 1 255  1 2 3  4 5 6");
     CHECK(plain.channels == 3);
     CHECK(plain.samples == Samples{1, 2, 3, 4, 5, 6});
@@ -45,7 +45,7 @@ TEST_CASE("PBM: 1 is black; plain digits need no spaces, and raw rows are padded
           Samples{0, 255, 255, 255, 255, 255, 255, 255, 0});
 }
 
-TEST_CASE("PPM and PBM: errors name the format") {
+TEST_CASE("PPM and PBM: error messages name the format of the file") {
     CHECK(contains(picture_error("P6 1 1 255\nab"), "truncated PPM"));
     CHECK(contains(picture_error("P3 1 1 255 1 2"), "truncated PPM"));
     CHECK(contains(picture_error("P4 9 1\n\200"s), "truncated PBM"));

@@ -70,7 +70,7 @@ TEST_CASE("JPEG: colours differ by at most 1 (of 255) from those of another deco
     CHECK(std::abs(image.rgb_sum(15, 7) - 3 * white) <= 3);
 }
 
-TEST_CASE("BMP: rows in both orders, 24 bits and palettes are read") {
+TEST_CASE("BMP: files with rows from the top or the bottom, 24-bit colours or palettes are read") {
     const std::string red_then_blue = "\0\0\377\377\0\0\0\0"s, gray = "\5\5\5\6\6\6\0\0"s;
     const Samples expected{255, 0, 0, 0, 0, 255, 5, 5, 5, 6, 6, 6};
     CHECK(read_bytes(bmp_header(2, 2, 24) + gray + red_then_blue).samples == expected);
@@ -82,7 +82,7 @@ TEST_CASE("BMP: rows in both orders, 24 bits and palettes are read") {
     CHECK(read_bytes(bmp_header(2, 1, 8, palette) + "\1\0\0\0"s).samples == levels);
 }
 
-TEST_CASE("GIF: the first frame is read; alpha is a channel only if a pixel is transparent") {
+TEST_CASE("GIF: the first frame is read, with an alpha channel only if a pixel is transparent") {
     const Image opaque = read_bytes(test::opaque_gif());
     CHECK(opaque.channels == 3);
     CHECK(opaque.samples ==
@@ -135,7 +135,7 @@ TEST_CASE("JPEG, BMP, GIF: an image of 1e9 pixels is refused from its header alo
 TEST_CASE("BMP: a BMP of an unsupported kind is refused, and the error names the kind") {
     const std::string packed = bmp_header(4, 1, 8, std::string(8, '\0'), 1) + "\4\1\0\1"s;
     CHECK(contains(error_of(packed), "a kind of BMP that is not supported (BMP RLE)"));
-    CHECK(contains(error_of(packed), "save it as PNG"));
+    CHECK(contains(error_of(packed), "save the picture as PNG"));
 }
 
 TEST_CASE("maps: the same image gives the same map as JPEG and as PGM") {

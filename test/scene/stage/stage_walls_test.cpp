@@ -132,7 +132,7 @@ TEST_CASE(
     CHECK(drawn(world.grid("model ( bitmap \"m.png\" size [4 1] )\n")) == "#..#");
 }
 
-TEST_CASE("stage walls: a palette image is read by its colours") {
+TEST_CASE("stage walls: the colours of a palette image decide which pixels are walls") {
     World world;
     test::PngPicture picture{.width = 3, .rows = {}};
     picture.color_type = PNG_COLOR_TYPE_PALETTE;
@@ -142,7 +142,7 @@ TEST_CASE("stage walls: a palette image is read by its colours") {
     CHECK(drawn(world.grid("model ( bitmap \"m.png\" size [3 1] )\n")) == "#.#");
 }
 
-TEST_CASE("stage walls: pose and origin move and rotate the walls") {
+TEST_CASE("stage walls: the keys `pose` and `origin` of a model move and rotate its walls") {
     World world;
     world.draw("m.pgm", {"##"});
     const OccupancyGrid turned =
@@ -178,7 +178,8 @@ TEST_CASE("stage walls: a model without bitmap and outline is a solid box") {
 }
 
 TEST_CASE(
-    "stage walls: submodels of a wall are walls placed relative to it; robots are not walls") {
+    "stage walls: submodels of a wall are walls placed relative to this wall; robots are not "
+    "walls") {
     World world;
     const StageWalls walls = world.walls(
         "define room model ( size [2 2] )\n"
@@ -196,7 +197,9 @@ TEST_CASE(
     CHECK(std::abs(walls.grids[2].yaw - 135 * pi_ / 180) < rounding);
 }
 
-TEST_CASE("stage walls: a model that laser beams pass is not a wall, but its submodels may be") {
+TEST_CASE(
+    "stage walls: a model through which laser beams pass is not a wall, but its submodels may be "
+    "walls") {
     World world;
     CHECK(world.walls("model ( laser_return 0 )\nmodel ( ranger_return -1 )\n").grids.empty());
     CHECK(world.walls("model ( ranger_return -0.5 )\nmodel ( laser_return -1 )\n").grids.empty());
@@ -208,7 +211,8 @@ TEST_CASE("stage walls: a model that laser beams pass is not a wall, but its sub
     CHECK(world.walls("model ( laser_return 0 model ( ) )\n").grids.size() == 1);
 }
 
-TEST_CASE("stage walls: a boundary is four walls of 1 cm just inside the model's size") {
+TEST_CASE(
+    "stage walls: the key `boundary` adds four walls, 1 cm thick, just inside the model's size") {
     World world;
     world.draw("m.pgm", {"#.", ".#"});
     const StageWalls walls =
@@ -330,7 +334,7 @@ TEST_CASE(
     const std::string text = "model (\n bitmap \"bits/m.pgm\" size [1 1] )\n";
     const std::string places =
         world.folder.path("bits/m.pgm") + " and " + world.folder.path("m.pgm");
-    CHECK(world.mistake(text) == "2:2: bitmap: no file \"bits/m.pgm\"; tried " + places +
+    CHECK(world.mistake(text) == "2:2: bitmap: no file \"bits/m.pgm\"; tried the paths " + places +
                                      "; give the file's folder with --world-path, or another "
                                      "file with --bitmap m.pgm=NEW");
     world.options.lenient = true;
@@ -339,7 +343,8 @@ TEST_CASE(
     REQUIRE(walls.notices.size() == 1);
     CHECK(walls.notices[0] ==
           world.folder.path("a.world") +
-              ":2: bitmap \"bits/m.pgm\" is missing, so its walls are left out; tried " + places);
+              ":2: bitmap \"bits/m.pgm\" is missing, so its walls are left out; tried the paths " +
+              places);
 }
 
 TEST_CASE(
@@ -387,7 +392,7 @@ TEST_CASE("stage walls: a value of a wrong type is refused, with line and column
     CHECK(
         world.mistake("model ( bitmap 5 )\n").starts_with("1:9: bitmap: found a number; expected"));
     CHECK(world.mistake("model ( block ( ) )\n") ==
-          "1:9: points is missing; expected the number of points; write points 4");
+          "1:9: the key \"points\" is missing; expected the number of points; write points 4");
     CHECK(world.mistake("model ( block ( points 3 point[0] [0 0] point[1] [1 1] ) )\n")
               .starts_with("1:17: points: found no point[2]; expected 3 points from point[0] on;"));
     CHECK(world.mistake("model ( polygons 1 polygon[0].points 1 polygon[0].point[0] [0 0 0] )\n") ==

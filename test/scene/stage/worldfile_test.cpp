@@ -203,25 +203,27 @@ TEST_CASE("worldfile: a syntax error has line, column, what was found and what t
     CHECK(mistake("name 'a'\n") ==
           "1:6: found \"'\"; expected a text in double quotes; write \"...\"");
     CHECK(mistake("model (\n size [16 16\n pose [0 0 0]\n)\n") ==
-          "3:2: found the word \"pose\" inside the [ ] of \"size\"; expected numbers or texts and "
-          "the \"]\"; add the \"]\"");
+          "3:2: found the word \"pose\" inside the [ ] of \"size\"; expected numbers or texts, and "
+          "then the \"]\"; add the \"]\"");
     CHECK(mistake("size [16\n\n").starts_with("3:1: found the end of the file inside the [ ]"));
     CHECK(mistake("a [b]\n") ==
-          "1:4: found the word \"b\" inside the [ ] of \"a\"; expected numbers or texts and the "
-          "\"]\"; put a text in quotes");
+          "1:4: found the word \"b\" inside the [ ] of \"a\"; expected numbers or texts, and then "
+          "the \"]\"; put a text in quotes");
     CHECK(mistake("model (\n a 1\n")
-              .starts_with("3:1: found the end of the file; expected the \")\" of the \"(\" at "));
+              .starts_with(
+                  "3:1: found the end of the file; expected the \")\" that closes the \"(\" at "));
     CHECK(mistake("model (\n a 1\n").ends_with("a.world:1:7; add the \")\""));
     CHECK(mistake("model ( a 1 ) )\n") ==
           "1:15: found \")\" without a \"(\"; expected a key, a model or the end of the file; "
           "remove the \")\"");
     CHECK(mistake("resolution\n0.02\n") ==
-          "1:11: found the end of the line; expected the value of \"resolution\" on its line: a "
-          "number, a text in quotes or [values]; or a \"(\"; write resolution 1, or resolution ( "
-          "... )");
+          "1:11: found the end of the line; expected the value of \"resolution\" on the same line: "
+          "a number, a text in quotes or [values]; or a \"(\" that begins a block; write "
+          "resolution 1, or resolution ( ... )");
     CHECK(mistake("localization gps\n") ==
-          "1:14: found the word \"gps\"; expected the value of \"localization\" on its line: a "
-          "number, a text in quotes or [values]; or a \"(\"; did you mean \"gps\", in quotes?");
+          "1:14: found the word \"gps\"; expected the value of \"localization\" on the same line: "
+          "a number, a text in quotes or [values]; or a \"(\" that begins a block; did you mean "
+          "\"gps\", in quotes?");
     CHECK(mistake("a 1\n5\n") ==
           "2:1: found the number 5; expected a key or the type of a model; write \"name value\" or "
           "\"type ( ... )\"");
@@ -297,19 +299,21 @@ TEST_CASE(
     }
     const std::string places = folder.path("inc/m.inc") + ", " + folder.path("lib/inc/m.inc") +
                                ", " + folder.path("m.inc") + " and " + folder.path("lib/m.inc");
-    CHECK(message == "no file \"inc/m.inc\" to include; tried " + places +
+    CHECK(message == "no file \"inc/m.inc\" to include; tried the paths " + places +
                          "; give the file's folder with --world-path or in STAGEPATH");
     options.lenient = true;
     const WorldFile world = read_worldfile(path, options);
     CHECK(value(world.root, "b") == "2000");
     REQUIRE(world.notices.size() == 1);
     CHECK(world.notices[0] ==
-          path + ":2: the include file \"inc/m.inc\" is missing, so it is left out; tried " +
+          path +
+              ":2: the include file \"inc/m.inc\" is missing, so it is left out; tried the paths " +
               places);
 }
 
 TEST_CASE(
-    "worldfile: macros of an included file apply after the include, and errors name the file") {
+    "worldfile: macros of an included file can be used after the include, and errors name the "
+    "included file") {
     const TemporaryFolder folder;
     folder.write("m.inc", "define m model ( a 1 )\n");
     const std::string path =
@@ -327,7 +331,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("worldfile: an include must be last on its line and name a file") {
+TEST_CASE("worldfile: an include must name a file, and nothing may follow on the same line") {
     CHECK(mistake("include map\n") ==
           "1:9: found the word \"map\"; expected the name of a file in quotes; write include "
           "\"map.inc\"");

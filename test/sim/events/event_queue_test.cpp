@@ -193,7 +193,9 @@ bool serves(EventQueue& queue, std::vector<EventKey> keys) {
 
 }  // namespace
 
-TEST_CASE("event queue: the order equals that of a heap and of a sorted set, for any times") {
+TEST_CASE(
+    "event queue: events are served in the same order as by a heap and a sorted set, for any "
+    "times") {
     for (const Named& distribution : distributions()) {
         CAPTURE(distribution.name);
         Trio(distribution, 1).drive(30, 20);
@@ -214,7 +216,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "event queue: events that are added without end at the current time are served in order") {
+    "event queue: if events are added without end at the current time, they are served in order") {
     EventQueue queue;
     std::uint64_t pushed = 0;
     for (; pushed < 5000; ++pushed) queue.push(key_at(5, pushed));
@@ -226,8 +228,7 @@ TEST_CASE(
     CHECK(queue.size() == 5000);
 }
 
-TEST_CASE(
-    "event queue: after a call of top(), many events earlier than the next one may be added") {
+TEST_CASE("event queue: after top() returned the next event, many earlier events may be added") {
     constexpr std::int64_t far = 1'000'000'000'000;
     Dice dice(1);
     EventQueue queue;

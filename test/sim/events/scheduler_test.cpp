@@ -145,8 +145,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "scheduler: for any sequence of calls, the order equals that of a sorted map, also at equal "
-    "times") {
+    "scheduler: for any sequence of calls, events are served in the order of a sorted map, also at "
+    "equal times") {
     for (std::uint64_t seed = 1; seed <= 3; ++seed) {
         drive(seed, 3, 10);
         drive(seed, 5, 300);
@@ -201,8 +201,7 @@ TEST_CASE("scheduler: an event can be cancelled only once, and only while it is 
     CHECK(served(queue) == std::vector{3});
 }
 
-TEST_CASE(
-    "scheduler: the old handle of an event cannot cancel the event after it was queued again") {
+TEST_CASE("scheduler: after an event was queued again, its old handle cannot cancel this event") {
     Scheduler<int> queue;
     const auto handle = queue.schedule(at(1), Priority::timer, 1);
     const auto event = queue.pop();
@@ -226,7 +225,9 @@ TEST_CASE(
     CHECK(queue.runs_before_next(event.key.at(never)));
 }
 
-TEST_CASE("scheduler: a payload that owns memory is released when it is served or cancelled") {
+TEST_CASE(
+    "scheduler: the memory of an event's payload is released when the event is served or "
+    "cancelled") {
     const auto shared = std::make_shared<int>(1);
     Scheduler<std::shared_ptr<int>> queue;
     const auto handle = queue.schedule(at(1), Priority::timer, shared);

@@ -165,8 +165,8 @@ TEST_CASE("decision: an undecided comparison predicts the number of replications
 }
 
 TEST_CASE(
-    "decision: for an undecided candidate, a larger tolerance that would decide is found, if there "
-    "is one") {
+    "decision: for an undecided candidate, a larger tolerance that would give a verdict is found, "
+    "if there is one") {
     const DecisionRule rule{.tolerance = 0.05, .bounds = share, .family = 3};
     CandidateDecision near(rule), few(rule), student({.tolerance = 1, .bounds = delay, .most = 40});
     for (int i = 0; i < 200; ++i) add(near, i % 2 == 0 ? 0.15 : -0.05);
@@ -186,7 +186,9 @@ TEST_CASE(
     CHECK(*student.deciding_tolerance() == doctest::Approx(1.7).epsilon(0.1));
 }
 
-TEST_CASE("decision: if candidates differ by the tolerance, at most 5 % of studies are wrong") {
+TEST_CASE(
+    "decision: if candidates differ by exactly the tolerance, at most 5 % of studies give a false "
+    "verdict") {
     // Six candidates each, one for each distribution, with E D = 0.05, the tolerance: neither
     // within nor outside. Half of the studies judge the mean, half the single run, where E|D| =
     // 0.05: those distributions that are negative at times are left as they are only for the mean.

@@ -121,7 +121,9 @@ const JudgedCandidate& judged(const Advice& advice, std::string_view name) {
 
 }  // namespace
 
-TEST_CASE("advise: on an open field the reference is the exact two_ray with sinr") {
+TEST_CASE(
+    "advise: on an open field, the reference is the exact form of `two_ray` with the reception "
+    "`sinr`") {
     const AdviceCandidates c = candidates_of(talkers, as_given);
     CHECK_FALSE(c.on_map);
     const CandidateModel& reference = c.path_losses.back();
@@ -138,7 +140,8 @@ TEST_CASE("advise: on an open field the reference is the exact two_ray with sinr
 }
 
 TEST_CASE(
-    "advise: the model disc is tested with the most detailed reception model that works with it") {
+    "advise: the model `disc` is tested with the most detailed reception model that works with "
+    "it") {
     const AdviceCandidates c =
         candidates_of(talkers + "[propagation]\nrange = \"20 m\"\n", as_given);
     REQUIRE(c.path_losses.front().name == "disc");
@@ -167,7 +170,8 @@ TEST_CASE("advise: on a map the reference is the most detailed model, the others
 }
 
 TEST_CASE(
-    "advise: with the model rays as the reference, its simpler forms are cheaper candidates") {
+    "advise: with the model `rays` as the reference, the simpler forms of `rays` are cheaper "
+    "candidates") {
     const auto forms_below = [](const std::string& order, const std::string& diffraction) {
         const AdviceCandidates c =
             candidates_for(std::string(ROVERNET_EXAMPLES) + "/rescue/rescue.toml", {},
@@ -260,7 +264,7 @@ TEST_CASE(
     CHECK(c.path_losses[0].fitted.empty());
 }
 
-TEST_CASE("advise: a simulated study selects the model that equals the reference") {
+TEST_CASE("advise: a simulated study selects the candidate model that equals the reference") {
     const TemporaryFolder folder;
     const std::string file = folder.write("s.toml", talkers);
     const AdviceCandidates c =
@@ -320,7 +324,9 @@ TEST_CASE(
     CHECK(study.made[0] == 0);  // a + some: nobody asked
 }
 
-TEST_CASE("advise: two models with small errors can together exceed the tolerance") {
+TEST_CASE(
+    "advise: two models with small errors of their own can exceed the tolerance when used "
+    "together") {
     MadeUp study([](std::size_t p, std::size_t r, std::uint32_t) {
         return 0.9 - (p == 0 ? 0.6 : p == 1 ? 0.15 : 0) - (r == 0 ? 0.15 : 0);
     });

@@ -71,8 +71,8 @@ constexpr double rounding = 1e-12;  // of means of a few numbers below 10
 }  // namespace
 
 TEST_CASE(
-    "compare: differences are paired, and an error is the mean distance to the most detailed "
-    "model") {
+    "compare: differences are paired by replication; a model's error is its mean distance to the "
+    "most detailed model") {
     const TemporaryFolder folder;
     const Store store = made(folder.path("s.db"), {"raytrace_2007", "disc", "friis"},
                              {{0.2, 0.4, 0.6}, {0.3, 0.3, 0.9}, {1.0, 1.0, 1.0}});
@@ -157,7 +157,7 @@ TEST_CASE("compare: charts show each model's value, and its error against its co
 }
 
 TEST_CASE(
-    "compare: in the example rescue, common random numbers halve the variance of differences") {
+    "compare: in the example `rescue`, common random numbers halve the variance of differences") {
     const TemporaryFolder folder;
     const Array models = {"disc", "friis", "itu_indoor", "log_distance", "raytrace_2007"};
     Study study(ROVERNET_EXAMPLES "/rescue/study.toml", {.set = {"study.replications=100"}},
@@ -227,7 +227,8 @@ TEST_CASE("compare: with several metrics the intervals are wider, to be valid si
 }
 
 TEST_CASE(
-    "chart: a protocol is a mark with intervals in x and y; without deliveries it has no mark") {
+    "chart: each protocol is a mark with intervals in x and y; a protocol without deliveries has "
+    "no mark") {
     const TemporaryFolder folder;
     const Store store = made_of_protocols(folder.path("s.db"), {"flood", "aodv", "mute"},
                                           {{0.2, 0.4, 0.3}, {0.9, 0.8, 0.7}, {0, 0, 0}},
@@ -244,7 +245,7 @@ TEST_CASE(
     CHECK(*marks[1].low < 0.8);
     CHECK(*marks[1].high > 0.8);
     CHECK(chart.y_limits.high == 1);
-    CHECK(chart.note.find("without deliveries: mute; fixed as in the file") != std::string::npos);
+    CHECK(chart.note.find("nothing delivered by: mute; fixed as in the file") != std::string::npos);
 }
 
 }  // namespace compare_test

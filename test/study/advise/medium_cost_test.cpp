@@ -75,7 +75,9 @@ TEST_CASE("costs of the medium: replayed frames reach about as many receivers as
     }
 }
 
-TEST_CASE("costs of the medium: a model with a longer range finds more receivers of the frames") {
+TEST_CASE(
+    "costs of the medium: with a model of a longer range, the replayed frames have more "
+    "receivers") {
     const Scenario near = walkers("[propagation]\nmodel = \"disc\"\nrange = \"50 m\"\n");
     const Scenario far = walkers("[propagation]\nmodel = \"disc\"\nrange = \"1 km\"\n");
     const MediumRecord record = record_medium(near, go_on);

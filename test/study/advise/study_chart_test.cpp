@@ -71,7 +71,7 @@ TEST_CASE(
     CHECK(*chart.series[0].points[1].low < chart.series[0].points[1].y);
 }
 
-TEST_CASE("study chart: each value of the `by` key has a series") {
+TEST_CASE("study chart: each value of the key that `by` names has its own series") {
     const TemporaryFolder folder;
     const Store store = made(folder.path("s.db"), "radio.power", {"5 dBm", "10 dBm"},
                              "propagation.model", {"disc", "friis"});
@@ -101,7 +101,9 @@ TEST_CASE("study chart: quantities in several units are drawn in their base unit
     CHECK(study_chart(mixed, {.x = "b", .y = "latency_mean_s"}).kind == ChartKind::bars);
 }
 
-TEST_CASE("study chart: a cdf has a point per replication; a heat map has a row per value") {
+TEST_CASE(
+    "study chart: a cdf has a point per replication; a heat map has a row per value of the `by` "
+    "key") {
     const TemporaryFolder folder;
     const Store store =
         made(folder.path("s.db"), "robot.r.count", {10, 20}, "routing.ttl", {1, 2, 3});
@@ -122,7 +124,9 @@ TEST_CASE("study chart: a cdf has a point per replication; a heat map has a row 
     CHECK(std::abs(map.series[1].points[2].y - 12.1) < rounding);
 }
 
-TEST_CASE("study chart: a condition selects points, and is stated in the note") {
+TEST_CASE(
+    "study chart: a condition such as ttl=3 selects points, and the chart's note states the "
+    "condition") {
     const TemporaryFolder folder;
     const Store store =
         made(folder.path("s.db"), "robot.r.count", {10, 20}, "routing.ttl", {1, 2, 3});

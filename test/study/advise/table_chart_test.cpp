@@ -31,8 +31,8 @@ Chart draw(const std::string& text, const ChartQuestion& question) {
 }  // namespace
 
 TEST_CASE(
-    "table chart: each name gives a series, columns give its intervals, and rows without y are "
-    "left out") {
+    "table chart: each name is a series, columns give the intervals, and rows without y are left "
+    "out") {
     const Chart chart = draw(table, {.x = "robots", .y = "cost", .by = "program", .log_x = true});
     CHECK(chart.kind == ChartKind::lines);
     CHECK(chart.x_label == "robots");
@@ -67,7 +67,7 @@ TEST_CASE("table chart: a table or a request that cannot be drawn is refused") {
     CHECK_THROWS_WITH_AS(draw(table, {.y = "cost"}), doctest::Contains("-x"),
                          std::invalid_argument);
     CHECK_THROWS_WITH_AS(draw(table, {.kind = ChartKind::cdf, .x = "robots", .y = "cost"}),
-                         doctest::Contains("lines or bars"), std::invalid_argument);
+                         doctest::Contains("--kind lines or --kind bars"), std::invalid_argument);
     CHECK_THROWS_WITH_AS(draw(table, {.kind = ChartKind::lines, .x = "program", .y = "cost"}),
                          doctest::Contains("words"), std::invalid_argument);
     CHECK_THROWS_WITH_AS(draw(table, {.x = "robots", .y = "cost", .where = {{"program", "none"}}}),

@@ -132,7 +132,8 @@ TEST_CASE(
     CHECK(std::abs(at_range - budget) < 1);
 }
 
-TEST_CASE("calibration: fitted parameters in the scenario give the predicted losses") {
+TEST_CASE(
+    "calibration: a scenario with the fitted parameters gives the losses that the fit predicts") {
     const Scenario scenario = scenario_from(wanderers + "[propagation]\nmodel = \"two_ray\"\n");
     Calibration calibration = calibrate_to_model(scenario, "", {});
     CHECK(calibration.reference == "two_ray");
@@ -186,8 +187,8 @@ TEST_CASE("calibration: a sample of links that grows in steps equals a sample dr
 }
 
 TEST_CASE(
-    "calibration: while links are sampled for the model rays, the model multi_wall decides which "
-    "messages arrive") {
+    "calibration: while links are sampled for the model `rays`, the model `multi_wall` decides "
+    "which messages arrive") {
     // B drives off when it hears A, through a wall that takes so much by multi_wall.
     const auto links_with = [](const std::string& heavy_wall) {
         Scenario scenario = scenario_from(R"([scenario]
@@ -221,7 +222,7 @@ every = "1 s"
     CHECK(links_with("1 dB") > 10);
 }
 
-TEST_CASE("calibration: of a loss far above the link budget, only a lower bound is used") {
+TEST_CASE("calibration: if a loss is far above the link budget, only a lower bound of it is used") {
     KnownLinks known;
     for (const double loss : {99.0, 120.0, 120.5}) {
         KnownLink& link = known.links.emplace_back();
@@ -340,7 +341,7 @@ TEST_CASE("calibration: levels too weak to be seen are taken into account by the
     CHECK(model(some, "friis").parameters.at(0).key == "power");
 }
 
-TEST_CASE("calibration: each transmitter has its own gain, which improves the fit") {
+TEST_CASE("calibration: fitting a gain for each transmitter improves the fit") {
     const test::TemporaryFolder folder;
     const Scenario scenario = scenario_from(wanderers);
     const auto write = [&](const std::string& name, double first, double floor) {
@@ -412,10 +413,12 @@ TEST_CASE("calibration: a useless fit is refused with the reason") {
     CHECK(models[0].refusal.empty());
     CHECK(models[1].refusal.empty());
     CHECK(models[2].refusal ==
-          "its error of 54.0 dB is far above 5.0 dB, the error of friis with a fitted constant");
+          "the error of this model, 54.0 dB, is far above 5.0 dB, the error of friis with a "
+          "fitted constant");
     CHECK(
         models[3].refusal ==
-        "the fitted power of 4212 dBm differs by more than 30 dB from the given power of 16.5 dBm");
+        "the fitted power of 4212 dBm differs by more than 30 dB from the given power of 16.5 dBm; "
+        "check the power in [radio]");
     // By real levels: a power that was given 40 dB too high.
     const test::TemporaryFolder folder;
     const auto path = folder.write("levels.csv", levels_of_a_law(-300));
@@ -467,8 +470,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "calibration: wall losses of the model rays are found by the fit; without walls they are not "
-    "determined") {
+    "calibration: the fit finds the wall losses of the model `rays`; without walls they stay "
+    "undetermined") {
     const std::string among_walls = R"([scenario]
 duration = "100 s"
 [[robot]]
@@ -515,7 +518,9 @@ move = { model = "random_waypoint", area = [["1 m", "1 m"], ["29 m", "19 m"]] }
     for (const FittedParameter& p : nothing.parameters) CHECK(!p.determined);
 }
 
-TEST_CASE("levels: an error in a file of levels has a line, and for a wrong number a column") {
+TEST_CASE(
+    "levels: an error in a file of levels is reported with its line, a wrong number also with its "
+    "column") {
     const auto has = [](const std::string& text, const std::string& words) {
         CAPTURE(text);
         return text.find(words) != std::string::npos;
@@ -531,7 +536,9 @@ TEST_CASE("levels: an error in a file of levels has a line, and for a wrong numb
     CHECK(has(error_of(""), "empty"));
 }
 
-TEST_CASE("calibration: a measured flat and a laboratory are fitted on their maps") {
+TEST_CASE(
+    "calibration: models are fitted to levels measured in a flat and a laboratory, with their "
+    "maps") {
     const char* folder = std::getenv("ROVERNET_FIELD");
     if (!folder) {
         MESSAGE("skipped: ROVERNET_FIELD is not set");

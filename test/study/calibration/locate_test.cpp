@@ -100,7 +100,7 @@ at = ["21 m", "15 m"]
     for (const Fix& fix : all.fixes) CHECK(*fix.error() <= 2e-3);
 }
 
-TEST_CASE("locate, fit, probe: the model disc is refused, because it has no levels") {
+TEST_CASE("locate, fit, probe: the model `disc` is refused, because it has no levels") {
     const Propagation model = Disc{.range = 20_m};
     const auto fault = [](const auto& call) {
         try {
@@ -166,7 +166,9 @@ TEST_CASE("locate: measured levels give positions, with and without known true p
     CHECK(std::abs(known.fixes[0].bound->value - unknown.fixes[0].bound->value) < 0.01);
 }
 
-TEST_CASE("locate: positions that cannot be located are counted, with the reason") {
+TEST_CASE(
+    "locate: positions with too few anchors are counted; an unknown anchor and a missing sigma are "
+    "errors") {
     const Scenario scenario = hall("");
     const auto fault = [&](const std::vector<std::string>& anchors,
                            const LocateQuestion& question) {

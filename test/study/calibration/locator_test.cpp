@@ -49,7 +49,9 @@ std::vector<AnchorLoss> measured(const LocatorSettings& s, const std::vector<Vec
 
 }  // namespace
 
-TEST_CASE("locator: the bound of the error equals its closed form, with known and unknown power") {
+TEST_CASE(
+    "locator: the bound of the position error equals the closed form, with known and unknown "
+    "power") {
     const Vectors vectors("rssi_crlb.csv");
     std::size_t checked = 0;
     for (std::size_t row = 0; row < vectors.size(); ++row) {
@@ -98,7 +100,7 @@ TEST_CASE(
     CHECK_FALSE(Locator(unknown).bound(two, {5, 5}, Db{4}));
 }
 
-TEST_CASE("locator: exact levels give the position to a millimetre") {
+TEST_CASE("locator: exact levels give the position with an error of at most 2 mm") {
     const auto anchors = anchors_of("square10");
     for (const bool known : {true, false}) {
         LocatorSettings settings = in_square(3);

@@ -194,7 +194,7 @@ TEST_CASE("perturbations: if there are more than eight materials, all are change
 }
 
 TEST_CASE(
-    "displaced: each antenna moves by the given distance, in a direction fixed by the robot's "
+    "displaced antennas: each one moves by the given distance, in a direction fixed by the robot's "
     "key") {
     const Displaced model{Friis{}, Meters{0.01}};
     const Vec3 at{3, 4};
@@ -209,7 +209,8 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("displaced: over many robots, each of four directions occurs about equally often") {
+TEST_CASE(
+    "displaced antennas: over many robots, each of four directions occurs about equally often") {
     const Displaced model{Friis{}, Meters{1}};
     int east = 0, north = 0;
     constexpr int n = 4000;
@@ -221,9 +222,7 @@ TEST_CASE("displaced: over many robots, each of four directions occurs about equ
     CHECK(std::abs(north - n / 4) < 150);
 }
 
-TEST_CASE(
-    "displaced: a link longer than the reach of the model with displaced antennas has a loss above "
-    "the link budget") {
+TEST_CASE("displaced antennas: beyond the reach of the model, losses are above the link budget") {
     const Displaced model{Friis{}, Meters{0.5}};
     const Hertz frequency = Radio{}.frequency;
     const double reach = model.reach(Db{70}, frequency, Propagation::anything).value;

@@ -77,8 +77,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "probe: at the edge of a disc a shift of 1 um flips the link, and is listed first, as a "
-    "cliff") {
+    "probe: at the range of the model `disc`, a shift of 1 um flips the link; this is listed "
+    "first, as a cliff") {
     const Probe found = probe(scenario_from(two_robots(10, disc)), {});
     REQUIRE(found.effects.size() == 2);
     const LinkEffect& first = found.effects.front();
@@ -133,8 +133,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "probe: effects are listed in the order cliffs (steep losses), flipped links, size of the "
-    "change") {
+    "probe: effects are listed in this order: cliffs (steep losses), flipped links, other changes "
+    "by size") {
     const Scenario scenario = with_walls(60, rows_of(20, "#.###.###."), walls);
     const Probe found = probe(scenario, {.events = 0});
     const auto group = [](const LinkEffect& e) { return e.is_cliff() ? 0 : e.flips() ? 1 : 2; };
@@ -151,7 +151,8 @@ TEST_CASE(
     CHECK(found.effects.size() >= 3);
 }
 
-TEST_CASE("probe: a wall that is drawn thicker breaks the link and loses its messages") {
+TEST_CASE(
+    "probe: a wall that is drawn thicker breaks the link, and messages over this link are lost") {
     // As given 0.3 m of wall take 15 dB; joined cells make it 0.4 m, and 20 dB.
     Scenario scenario = with_walls(4, rows_of(20, ".###......"), walls);
     const double loss = 40.2 + 30 * std::log10(4.0) + 15;

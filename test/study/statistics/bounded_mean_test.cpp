@@ -53,7 +53,7 @@ TEST_CASE("bounded mean: the wealth of the bets after three values equals a manu
     CHECK(near(wealth, enough, 1e-8));
 }
 
-TEST_CASE("bounded mean: for values of 1, the interval agrees with a numerical integral") {
+TEST_CASE("bounded mean: if all values are 1, the interval agrees with a numerical integral") {
     for (const std::size_t n : {2U, 5U, 30U}) {
         const auto mean = bounded_mean(ones(n), share, 0.95);
         CHECK(mean.high == 1);
@@ -155,7 +155,7 @@ TEST_CASE("bounded mean: invalid arguments are refused") {
     CHECK_THROWS_AS(bounded_mean(ones(2), {0.0, std::nullopt}, 0.95), std::invalid_argument);
     CHECK_THROWS_AS(bounded_mean(ones(2), share, 1), std::invalid_argument);
     CHECK_THROWS_WITH(bounded_mean(std::vector{0.5, 1.5}, share, 0.95),
-                      "bounded_mean: a value is not from 0 to 1");
+                      "bounded_mean: a value is outside the range from 0 to 1");
     CHECK_THROWS_AS(bounded_mean_replications(ones(2), share, 0, 0.95), std::invalid_argument);
 }
 

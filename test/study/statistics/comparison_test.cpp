@@ -82,8 +82,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "comparison: Student's data of ten patients give 1.58 h more sleep on the other drug, p = "
-    "0.2833 %") {
+    "comparison: Student's sleep data of ten patients give a difference of 1.58 h with p = 0.2833 "
+    "%") {
     const std::array a{0.7, -1.6, -0.2, -1.2, -0.1, 3.4, 3.7, 0.8, 0.0, 2.0};
     const std::array b{1.9, 0.8, 1.1, 0.1, -0.1, 4.4, 5.5, 1.6, 4.6, 3.4};
     const auto c = compare_pairs(a, b);
@@ -129,7 +129,9 @@ TEST_CASE("comparison: the p-value is at most the level exactly when the interva
     CHECK(found < 1500);
 }
 
-TEST_CASE("comparison: of 5 comparisons in a family, each is made at a fifth of the level") {
+TEST_CASE(
+    "comparison: in a family of 5 comparisons, each one is made at a fifth of the significance "
+    "level") {
     const Pairs pairs(8, 1, 1);
     const auto together = compare_pairs(pairs.a, pairs.b, {}, 0.95, 5);
     const auto alone = compare_pairs(pairs.a, pairs.b, {}, 0.99);
@@ -165,8 +167,8 @@ TEST_CASE("comparison: the variance ratio is 1 / (1 - correlation) for equal var
 }
 
 TEST_CASE(
-    "comparison: the detectable difference equals the test vectors detectable_shift times the "
-    "standard error") {
+    "comparison: the detectable difference is the standard error times the test vector "
+    "detectable_shift") {
     // The differences are -1, 0, 1: s = 1 (vectors detectable_shift, n = 3).
     const std::array a{1.0, 2.0, 3.0}, b{2.0, 2.0, 2.0};
     const test::Vectors vectors("detectable_shift.csv");
@@ -310,8 +312,8 @@ TEST_CASE("comparison in words: a sentence states whether two models are equival
 }
 
 TEST_CASE(
-    "comparison: differences of 54 of 60 replications in one direction, none in the other, are "
-    "significant") {
+    "comparison: 54 of 60 differences in one direction, and none in the other, are significant "
+    "(sign test)") {
     // Paired t: p = 1e-7 or so. The mean of differences from -1 to 1 is not told from 0: a loss of
     // everything in one run of 20 would outweigh it, and 60 runs may miss that.
     std::vector<double> a(60, 0.9), b(60, 0.9);

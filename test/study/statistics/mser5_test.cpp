@@ -89,7 +89,7 @@ TEST_CASE(
     CHECK(mser5(fading(205, 1, 1e3, 1e3)) == Truncation{.observations = 100, .conclusive = false});
 }
 
-TEST_CASE("MSER-5: a change after the middle is not detected") {
+TEST_CASE("MSER-5: a jump after the middle of the series is not detected") {
     CHECK(mser5(step(200, 150, 3)) == Truncation{.observations = 0, .conclusive = true});
 }
 

@@ -72,8 +72,8 @@ double best_wealth(const std::vector<double>& values, double m, double level) {
 }  // namespace
 
 TEST_CASE(
-    "STaR-Bets: for one value the interval equals Markov's inequality, to within one cell of the "
-    "grid") {
+    "STaR-Bets: for one value the interval is that of Markov's inequality, to within one grid "
+    "cell") {
     // 1 refutes m if 1 / m reaches 40, so up to m = 1/40; cells of 1/128 begin at 0.0234.
     CHECK(star_refutes(std::vector{1.0}, 0.0249, 0.025));
     CHECK(!star_refutes(std::vector{1.0}, 0.0251, 0.025));
@@ -83,7 +83,7 @@ TEST_CASE(
     CHECK(mean.high == 1);
 }
 
-TEST_CASE("STaR-Bets: rejections equal those by the equations in the C++ header") {
+TEST_CASE("STaR-Bets: a mean is rejected exactly if the equations in star_bets.hpp reject it") {
     int refuted = 0, kept = 0;
     for (std::uint32_t study = 0; study < 200; ++study) {
         const auto values = normals(5 + study % 60, 0.6, 0.25, study);
@@ -147,7 +147,7 @@ TEST_CASE("STaR-Bets: invalid arguments are refused") {
     CHECK_THROWS_AS(star_mean(std::vector{0.5}, share, 1), std::invalid_argument);
     CHECK_THROWS_AS(star_mean(std::vector{0.5}, {0.0, std::nullopt}, 0.95), std::invalid_argument);
     CHECK_THROWS_WITH(star_mean(std::vector{1.5}, share, 0.95),
-                      "star_mean: a value is not from 0 to 1");
+                      "star_mean: a value is outside the range from 0 to 1");
 }
 
 }  // namespace star_bets_test

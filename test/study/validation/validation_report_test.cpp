@@ -106,7 +106,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "validation: the chart lists methods from cheap to dear, with errors of 0 at the left end") {
+    "validation: the chart lists methods from cheap to expensive, with errors of 0 at the left "
+    "end") {
     const std::string svg = validation_svg(small_validation().charts[0]);
     CHECK(count(svg, "class=\"guide\"") == 2);  // cheap, on both scales
     for (const char* name : {">cheap</text>", ">slow &amp; poor</text>", ">exact</text>"})
@@ -195,8 +196,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "headline: models are in order of cost, and the reference with fewer paths is never named the "
-    "best model") {
+    "headline chart: models are in order of cost, and the reference with fewer paths is never "
+    "named the best model") {
     const auto point = [](const char* label, const char* series, double cost, double error) {
         return ValidationPoint{.label = label,
                                .series = series,
@@ -227,7 +228,7 @@ TEST_CASE(
     CHECK(count(svg, "Means of 7 runs") == 1);
 }
 
-TEST_CASE("validation: the page of the results needs no other file") {
+TEST_CASE("validation: the HTML page of the results needs no other file and no script") {
     const std::string html = validation_html(small_validation());
     CHECK(count(html, "<svg") == 1);
     CHECK(count(html, "http") == count(html, "http://www.w3.org/"));
@@ -236,7 +237,7 @@ TEST_CASE("validation: the page of the results needs no other file") {
     CHECK(count(html, "kept one") == 1);
 }
 
-TEST_CASE("validation: numbers of a chart are a table with one line per point") {
+TEST_CASE("validation: the numbers of a chart are written as CSV, with one line per point") {
     const std::string csv = validation_csv(small_validation().charts[0]);
     CHECK(count(csv, "\n") == 5);
     CHECK(csv.starts_with("panel,method,series,cost_ns,"));

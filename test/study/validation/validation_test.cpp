@@ -61,7 +61,9 @@ std::size_t joined_cells(const OccupancyGrid& map) {
 
 }  // namespace
 
-TEST_CASE("validation: results equal closed forms to the claimed digits") {
+TEST_CASE(
+    "validation: losses, bit error rates and antenna gains equal closed forms to the claimed "
+    "digits") {
     Promises promises;
     check_closed_forms(promises);
     check_kept(promises);
@@ -74,7 +76,9 @@ TEST_CASE("validation: walls, doors and floors are counted correctly") {
     check_kept(promises);
 }
 
-TEST_CASE("validation: results equal brute force within the claimed limits") {
+TEST_CASE(
+    "validation: sums over rays, fits, shadowing and fading agree with brute force within the "
+    "limits") {
     Promises promises;
     check_by_brute_force(promises);
     check_kept(promises);
@@ -99,7 +103,9 @@ TEST_CASE("validation: positions of robots agree with closed forms") {
     CHECK(promises[1].worst > 1e-4);
 }
 
-TEST_CASE("validation: lengths of walls are exact, and every naive method has errors") {
+TEST_CASE(
+    "validation: lengths of links inside walls are exact, and every approximate method has "
+    "errors") {
     Promises promises;
     const ValidationChart chart = wall_length_chart(few, promises);
     check_kept(promises);
@@ -115,7 +121,9 @@ TEST_CASE("validation: lengths of walls are exact, and every naive method has er
     CHECK(point_of(panel, "DDA 50 cm").error > point_of(panel, "DDA 5 cm").error);
 }
 
-TEST_CASE("validation: predicted link changes are within the limits, and fixed steps miss some") {
+TEST_CASE(
+    "validation: link changes are predicted within the limits, and checks at fixed steps see them "
+    "late") {
     Promises promises;
     const ValidationChart chart = link_changes_chart(few, promises);
     check_kept(promises);
@@ -131,7 +139,8 @@ TEST_CASE("validation: predicted link changes are within the limits, and fixed s
 }
 
 TEST_CASE(
-    "validation: link decisions without logarithms are exact; decisions by a table have errors") {
+    "validation: the decision whether a link is up is exact without logarithms, and has errors "
+    "with a table") {
     Promises promises;
     const ValidationChart chart = decisions_chart(few, promises);
     check_kept(promises);
@@ -140,7 +149,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "validation: errors of link decisions and delivery ratios are equal when measured again") {
+    "validation: repeated measurements give equal errors of link decisions and equal delivery "
+    "ratios") {
     Promises promises;
     CHECK(errors_of(decisions_chart(few, promises)) == errors_of(decisions_chart(few, promises)));
     const auto runs = [] {
@@ -149,7 +159,9 @@ TEST_CASE(
     CHECK(runs() == runs());
 }
 
-TEST_CASE("naive walls: sampling on a raster parallel to the walls gives the exact length") {
+TEST_CASE(
+    "naive wall lengths: adding up cells of a raster parallel to the walls gives the exact "
+    "length") {
     OccupancyGrid grid;
     grid.columns = grid.rows = 8;
     grid.cells.assign(64, Cell::free);
@@ -169,7 +181,7 @@ TEST_CASE("naive walls: sampling on a raster parallel to the walls gives the exa
     CHECK(std::abs(raster.bresenham({0.5, 1.5}, {7.5, 1.5}) - 7.0 * 2 / 8) < 1e-12);
 }
 
-TEST_CASE("drawn maps: all rooms, and all chambers of the cave, are connected") {
+TEST_CASE("drawn maps: all rooms of the office, and all chambers of the cave, are connected") {
     const DrawnBuilding office = drawn_office();
     const OccupancyGrid rooms = drawn_map(office.width, office.depth, office_cell.value,
                                           [&](Vec3 p) { return office.is_wall(p); });

@@ -91,14 +91,16 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("trace convert: a trace in the new format becomes the run's trace in the old format") {
+TEST_CASE(
+    "trace convert: a trace in ns-2's new format becomes the trace that the run writes in the old "
+    "format") {
     const Made made = converted(written(Ns2Format::new_format), TraceForm::ns2_old);
     CHECK(made.text == written(Ns2Format::old_format));
 }
 
 TEST_CASE(
-    "trace convert: a trace in the old format is converted to the run's new trace, except for "
-    "positions") {
+    "trace convert: a trace in ns-2's old format becomes the run's trace in the new format, except "
+    "for positions") {
     const std::string expected = written(Ns2Format::new_format);
     const std::string made = converted(written(Ns2Format::old_format), TraceForm::ns2_new).text;
     std::istringstream a(expected), b(made);
@@ -289,7 +291,8 @@ TEST_CASE("trace diff: traces of one run of ns-2 in both formats are equal") {
 }
 
 TEST_CASE(
-    "trace follow: the tree of a message, its losses and the robots without a copy are found") {
+    "trace follow: the relay tree of a message, its losses and the robots without a copy are "
+    "found") {
     const TempFolder folder;
     write_file(folder / "run.tr", moves + "M 0.0 4 (0.00, 0.00, 0.00), (0.00, 0.00), 0.00\n" +
                                       sent_0 + got_1 + on_to_2);
@@ -318,7 +321,8 @@ TEST_CASE(
         follow_ns2(folder / "run.tr", 7);
         FAIL("there is no message 7");
     } catch (const InputError& e) {
-        CHECK(e.message() == "found no message 7; expected the id of a message, from 0 to 0");
+        CHECK(e.message() ==
+              "found no message with the id 7; expected the id of a message, from 0 to 0");
     }
 }
 

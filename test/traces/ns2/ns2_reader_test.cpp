@@ -323,9 +323,9 @@ TEST_CASE("reader: a file that is missing, or not text, is refused") {
     CHECK_THROWS_AS(trace_metrics(folder / "missing.tr"), InputError);
     CHECK_THROWS_AS(trace_metrics(folder / "."), InputError);
     CHECK(error_of(old_lines + "# " + std::string(70'000, 'x')) ==
-          "run.tr:8:1: found a line of more than 64 KiB");
+          "run.tr:8:1: found a line of more than 64 KiB, expected a line of an ns-2 trace");
     CHECK(error_of("# " + std::string(1'000'000, 'x') + "\n") ==
-          "run.tr:1:1: found a line of more than 64 KiB");
+          "run.tr:1:1: found a line of more than 64 KiB, expected a line of an ns-2 trace");
     CHECK(error_of("# " + std::string(65'000, 'x') + "\n") == "");
 }
 

@@ -206,8 +206,7 @@ TEST_CASE("trace stats: hops are counted from the routing agent's first transmis
     CHECK(s.metrics.transmissions == 2);
 }
 
-TEST_CASE(
-    "trace stats: for traces written by ns-2, counts equal those that awk finds in the columns") {
+TEST_CASE("trace stats: for traces written by ns-2, the results equal those of an awk script") {
     const char* folder = std::getenv("ROVERNET_TRACES");
     if (!folder) {
         MESSAGE("skipped: ROVERNET_TRACES is not set");

@@ -104,7 +104,7 @@ TEST_CASE(
     CHECK(trace_of(Ns2Format::old_format, lose).find("MAC") == std::string::npos);
 }
 
-TEST_CASE("ns-2 trace: lines in the old format are those of ns-2") {
+TEST_CASE("ns-2 trace: lines in the old format are exactly as ns-2 writes them") {
     CHECK(without_first_lines(trace_of(Ns2Format::old_format, play), 12) ==
           "v 10 eval {set sim_annotation {reachable 0 2}}\n"
           "s 10.000000000 _0_ AGT  --- 0 message 64 [0 0 0 0] ------- [0:0 -1:0 3 0] \n"
@@ -123,7 +123,7 @@ TEST_CASE("ns-2 trace: lines in the old format are those of ns-2") {
           "D 10.004000000 _11_ RTR  SLP 0 message 64 [0 ffffffff 1 800] ------- [0:0 -1:0 2 0] \n");
 }
 
-TEST_CASE("ns-2 trace: lines in the new format are those of ns-2") {
+TEST_CASE("ns-2 trace: lines in the new format are exactly as ns-2 writes them") {
     const auto text = without_first_lines(trace_of(Ns2Format::new_format, play), 12);
     CHECK(text.starts_with(
         "v 10 eval {set sim_annotation {reachable 0 2}}\n"

@@ -128,7 +128,7 @@ TEST_CASE("transition function: real and imaginary part equal the test vectors (
     CHECK(transition_function(0) == Complex{0});
 }
 
-TEST_CASE("wedge: the coefficient equals a published example (screen, k = 10, L = 1)") {
+TEST_CASE("wedge: the diffraction coefficient equals a published one (screen, k = 10, L = 1)") {
     const WedgePath path{2, {90 * degree}, {45 * degree}};
     const Complex soft = wedge_coefficient(path, 10, 1_m, soft_faces);
     const Complex hard = wedge_coefficient(path, 10, 1_m, hard_faces);
@@ -207,7 +207,7 @@ TEST_CASE("wedge: a tenth of a degree from a boundary the field has no false pea
     }
 }
 
-TEST_CASE("wedge: an edge that is flat or lets everything through diffracts nothing") {
+TEST_CASE("wedge: an edge diffracts nothing if it is flat or lets everything through") {
     for (const double phi : {0.2, 1.5, 3.0}) {
         const WedgePath flat{1, {phi}, {1.1}};
         CHECK(std::abs(wedge_coefficient(flat, 50, 3_m, soft_faces)) < 1e-15);
@@ -218,7 +218,7 @@ TEST_CASE("wedge: an edge that is flat or lets everything through diffracts noth
 }
 
 TEST_CASE(
-    "wedge: exchanging source and receiver changes no bit of the result, also with lossy faces") {
+    "wedge: source and receiver can be exchanged without changing a bit, also with lossy faces") {
     const auto reflection = [](Radians incidence) {  // of a dielectric half space, TE
         const double cosine = std::cos(incidence.value);
         const double root = std::sqrt(4 + cosine * cosine);
