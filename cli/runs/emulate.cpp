@@ -171,7 +171,8 @@ void add_emulate(Command app) {
 
 void add_in(Command app) {
     const auto [command, a] = add_command(
-        app, "in", "Run a program in the network of a robot that rovernet emulate simulates",
+        app, "in",
+        "Run a program with the simulated network interface of a robot of rovernet emulate",
         run_in);
     command.add_examples(
         {"rovernet in A -- ping 10.0.0.2", "rovernet in --run runs/emulate-s1 A -- ping 10.0.0.2"});

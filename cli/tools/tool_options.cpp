@@ -73,7 +73,7 @@ void add_bench(Command app) {
                    "also compute metrics, fingerprint and timeline, as rovernet run does");
     flood
         .add_option("--cpu", a.bench.cpu_s,
-                    "shortest CPU time to measure for each number of robots, in seconds")
+                    "each number of robots is measured for at least this CPU time, in seconds")
         .check(above_zero())
         .shows_default();
     flood.add_option("--seed", a.bench.seed, "seed of all random draws").shows_default();

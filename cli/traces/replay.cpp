@@ -340,8 +340,8 @@ void replay(const ReplayArguments& a) {
     std::error_code ignored;
     if (a.verify && std::filesystem::is_directory(a.file, ignored)) {
         throw InputError({a.file},
-                         "this folder has no log of a live run (inputs.jsonl); expected a trace of "
-                         "this run, such as " +
+                         "this folder has no log of a live run (inputs.jsonl); to verify a run "
+                         "without such a log, give its trace, such as " +
                              (std::filesystem::path(a.file) / "trace.mcap").string());
     }
     if (a.verify) return verify(a);

@@ -24,11 +24,13 @@ void check_same_robots(const RecordedRun& a, const std::string& name_a, const Re
     if (a.robots == b.robots) return;
     const auto [one, other] =
         std::mismatch(a.robots.begin(), a.robots.end(), b.robots.begin(), b.robots.end());
-    const std::string found =
-        a.robots.size() != b.robots.size()
-            ? fmt::format("found {} robots, but {} robots in {}", b.robots.size(), a.robots.size(),
-                          name_a)
-            : fmt::format("found a robot \"{}\" where {} has \"{}\"", *other, name_a, *one);
+    const std::string found = a.robots.size() != b.robots.size()
+                                  ? fmt::format("found {} robots, but {} robots in {}",
+                                                b.robots.size(), a.robots.size(), name_a)
+                                  : fmt::format(
+                                        "found the robot \"{}\", but {} has the robot \"{}\" at "
+                                        "the same position of the list",
+                                        *other, name_a, *one);
     throw InputError(
         {.source = name_b},
         found +

@@ -86,7 +86,7 @@ std::string nearness_text(const Advice& advice, const std::string& reference) {
                            advice.metric, advice.rule.tolerance, reference);
     }
     return fmt::format(
-        "its {} in a single run differs from that in a run with {} by at most {:.4g} on average",
+        "its {0} differs from the {0} of {1} in the same replication by at most {2:.4g} on average",
         advice.metric, reference, advice.rule.tolerance);
 }
 

@@ -239,8 +239,9 @@ ValidationChart decisions_chart(const ValidationSize& size, Promises& promises) 
         .for_contributors = true};
     for (const ValidationPanel& panel : chart.panels) {
         const ValidationPoint& ours = panel.points[1];
-        promises.push_back({fmt::format("wrong decisions of {} on \"{}\"", ours.label, panel.title),
-                            "", 0, detail_of(ours, "flipped"), size.of(200'000, 5'000)});
+        promises.push_back(
+            {fmt::format("wrong decisions of {} in the panel \"{}\"", ours.label, panel.title), "",
+             0, detail_of(ours, "flipped"), size.of(200'000, 5'000)});
         chart.sentences.push_back(decision_sentence(panel));
     }
     return chart;

@@ -200,8 +200,8 @@ void check_anchors(const ValidationPanel& panel, Promises& promises) {
     constexpr double allowed = 0.2;  // [dB] for walls as the map draws them
     const auto add = [&](const char* model, const char* series, double published) {
         const double excess = point_of(panel, model, series).error - published;
-        promises.push_back({fmt::format("excess of the rms error of {} ({}) in the {} over the {} "
-                                        "dB of an independent analysis",
+        promises.push_back({fmt::format("difference between the rms error of {} ({}) in the {} "
+                                        "and the {} dB that an independent analysis found",
                                         model, series, panel.title, published),
                             "dB", allowed, std::max(0.0, excess), 1});
     };

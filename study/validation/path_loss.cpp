@@ -193,7 +193,7 @@ std::string nearest_sentence(const ValidationPanel& panel,
     if (nearest.point->series != after_fit) return out;
     for (const ValidationPoint& p : panel.points) {
         if (p.label == nearest.point->label && p.series == as_given)
-            out += fmt::format(" Without the fit of {}: {}.", p.label, off(p.error));
+            out += fmt::format(" If {} is not fitted: {}.", p.label, off(p.error));
     }
     return out;
 }
@@ -348,9 +348,9 @@ std::vector<ValidationChart> path_loss_charts(const ValidationSize& size,
         "two seconds. On the open field, the reference is the exact sum of two rays. In the office "
         "and in the cave, the reference is the model rays with three reflections and diffraction "
         "by UTD (uniform theory of diffraction). Fitted: the model is fitted to losses of the "
-        "reference in other replications, as `rovernet advise` does. The grey band ends at the "
-        "error that the reference has if its losses are as wrong as in measured buildings. The "
-        "cost is the CPU time to find the receivers of frames.",
+        "reference in other replications, as `rovernet advise` does. The grey band reaches up "
+        "to the error of the reference itself, if its losses deviate from the truth as much as in "
+        "measured buildings. The cost is the CPU time to find the receivers of frames.",
         replications);
     ValidationChart delivery{.name = "path_loss",
                              .title = "How near do cheap models come to a detailed model?",

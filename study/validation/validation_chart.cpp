@@ -129,7 +129,7 @@ double detail_of(const ValidationPoint& point, const std::string& name) {
         if (key == name) return value;
     }
     throw std::out_of_range(
-        fmt::format("the point with the label \"{1}\" has no detail \"{0}\"", name, point.label));
+        fmt::format("the point \"{1}\" has no value with the name \"{0}\"", name, point.label));
 }
 
 }  // namespace rovernet

@@ -146,9 +146,10 @@ TEST_CASE(
 
 TEST_CASE("replay --verify of a folder without a log of a live run asks for a trace") {
     const TemporaryFolder folder;
-    const Ended ended = command(folder, {"replay", run_two(folder, "trace.record=true"), "--verify"});
+    const Ended ended =
+        command(folder, {"replay", run_two(folder, "trace.record=true"), "--verify"});
     CHECK(ended.exit == 3);
-    CHECK(ended.err.find("expected a trace of this run, such as ") != std::string::npos);
+    CHECK(ended.err.find("give its trace, such as ") != std::string::npos);
     CHECK(ended.err.find("out/trace.mcap") != std::string::npos);
 }
 
