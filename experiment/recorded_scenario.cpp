@@ -149,10 +149,12 @@ ReplayedScenario::ReplayedScenario(const RecordedRun& run, const std::string& pa
         try {
             put_file(fs::path(folder_.path()) / file.name, file.content);
         } catch (const fs::filesystem_error&) {  // a file is inside where another has its folder
-            throw InputError({.source = path},
-                             fmt::format("the file {}, which this trace contains, cannot be stored "
-                                         "in a temporary folder",
-                                         file.name));
+            throw InputError(
+                {.source = path},
+                fmt::format(
+                    "the file {}, which this trace contains, cannot be stored "
+                    "in a temporary folder; check the space on the disk, or record the run again",
+                    file.name));
         }
     }
     constexpr std::pair<const char*, const char*> keys[] = {

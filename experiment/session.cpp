@@ -209,11 +209,11 @@ std::string Session::why_not_at(NodeId robot, Vec3 at) const {
     }
     const double radius = network_->robot(robot).radius.value;
     if (network_->scene().clearance(at) >= radius) return "";
-    const std::string whose = fmt::format("the radius of robot {},", network_->name(robot));
+    const std::string whose = fmt::format("robot {}'s radius", network_->name(robot));
     const std::string unknown = unknown_cell_text(network_->scene(), at, {radius}, whose);
     if (!unknown.empty()) return fmt::format("({:g}, {:g}) m {}", at.x, at.y, unknown);
     return fmt::format(
-        "({:g}, {:g}) m is in a wall, or nearer to a wall than the radius of robot {}, {:g} m",
+        "({:g}, {:g}) m is in a wall, or nearer to a wall than the radius of robot {} ({:g} m)",
         at.x, at.y, network_->name(robot), radius);
 }
 

@@ -75,7 +75,7 @@ std::string unknown_cell_text(const Scene& scene, Vec3 at, Meters radius, std::s
     return fmt::format(
         "{}; unknown cells stop robots: move the robot{}, or give the map's YAML "
         "file a free_thresh of {:.3f}, which makes cells of grey level {} free "
-        "(unless negate is 1)",
+        "(unless the key \"negate\" is 1)",
         place, smaller, enough, grey);
 }
 

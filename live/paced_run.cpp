@@ -334,7 +334,7 @@ class PacedServer {
         if (options_.late_ends) {
             fault_ = text;
         } else if (!std::exchange(has_told_late_, true)) {
-            options_.say(text + ", so programs receive their messages later by this delay");
+            options_.say(text + ", so programs receive their messages with this delay");
         }
     }
 

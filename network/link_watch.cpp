@@ -18,10 +18,10 @@ bool LinkWatch::later(const Entry& p, const Entry& q) {
 
 void LinkWatch::grow(std::size_t robots) {
     if (robots > most_robots) {
-        throw RunError(
-            fmt::format("{} robots have {} links, whose changes would have to be found; expected "
-                        "at most {} robots",
-                        robots, robots * (robots - 1), most_robots));
+        throw RunError(fmt::format(
+            "{} robots have {} links, too many to find all changes of these links; expected "
+            "at most {} robots",
+            robots, robots * (robots - 1), most_robots));
     }
     robots_ = robots;
     next_.resize(robots * robots, never);

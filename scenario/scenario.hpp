@@ -90,8 +90,8 @@ struct LinksTable {
                   "for propagation models with walls: largest error of the time at which a link "
                   "changes"),
             field("min_dwell", &LinksTable::min_dwell, dwell,
-                  "for propagation models for which the time at which a link changes cannot be "
-                  "computed: a link that is up or down for less than this time may be missed"));
+                  "for propagation models that cannot compute the time at which a link changes: "
+                  "a link that is up or down for less than this time may be missed"));
     }
 };
 

@@ -70,8 +70,8 @@ class TrafficReader {
         }
         if (left_out_ > 0) {
             file.notices.push_back(fmt::format(
-                "{}: this line about an agent is left out{}; of the settings of "
-                "agents, only packetSize_ is read",
+                "{}: this line about an agent is left out{}; the only setting of "
+                "agents that is read is packetSize_",
                 first_left_out_.text(),
                 left_out_ > 1 ? fmt::format(", and {} more like this", left_out_ - 1) : ""));
         }

@@ -18,9 +18,10 @@ Storeys::Storeys(std::vector<double> floors, std::vector<Material> ceilings)
     : floors_(std::move(floors)), ceilings_(std::move(ceilings)) {
     if (ceilings_.empty()) ceilings_.assign(floors_.size() - 1, {.name = "ceiling"});
     if (ceilings_.size() + 1 == floors_.size()) return;
-    throw std::invalid_argument(fmt::format(
-        "Storeys: there must be a ceiling for each storey but the highest, got {} for {} storeys",
-        ceilings_.size(), floors_.size()));
+    throw std::invalid_argument(
+        fmt::format("Storeys: there must be a ceiling for each storey except the highest, got {} "
+                    "ceilings for {} storeys",
+                    ceilings_.size(), floors_.size()));
 }
 
 double Storeys::bottom(std::size_t number) const {

@@ -42,9 +42,10 @@ StudyTable study_of(const Store& store) {
     } catch (const InputError& error) {
         throw InputError(
             {store.path()},
-            fmt::format(
-                "a damaged store: table \"study\", row with key \"study\", column \"value\": {}",
-                error.message()));
+            fmt::format("the store is damaged: table \"study\", row with key \"study\", column "
+                        "\"value\": {}; restore a copy of the store, or sweep again with --fresh, "
+                        "which deletes the stored runs",
+                        error.message()));
     }
 }
 

@@ -153,14 +153,17 @@ void check_metric(const std::string& name, const Scenario& scenario, const Locat
     const auto quotient = quotient_of(name);
     if (quotient && has(names, quotient->over) && has(names, quotient->under)) {
         throw InputError(
-            where, fmt::format("\"{}\" is a quotient of two metrics, which only `rovernet results` "
-                               "and `rovernet plot` compute; expected the two metrics {} and {}",
-                               name, quotient->over, quotient->under));
+            where, fmt::format(
+                       "\"{}\" is a quotient of two metrics; only `rovernet results` and `rovernet "
+                       "plot` compute quotients; expected the two metrics {} and {} instead",
+                       name, quotient->over, quotient->under));
     }
     throw InputError(
-        where, fmt::format("there is no metric \"{}\"{}; rovernet help output explains the metrics "
-                           "(of a flow: METRIC.FLOW, of a robot: METRIC.at.ROBOT)",
-                           name, near_metrics(name, names)));
+        where,
+        fmt::format(
+            "there is no metric \"{}\"{}; rovernet help output explains the metrics (a metric of "
+            "one flow is named METRIC.FLOW; a metric of one robot is named METRIC.at.ROBOT)",
+            name, near_metrics(name, names)));
 }
 
 std::string near_metrics(const std::string& name, std::vector<std::string> known) {

@@ -63,14 +63,16 @@ void check_shard(const std::string& path) {
     constexpr std::string_view magic{"SQLite format 3", 16};
     const std::string begin = InputFile(path).read(magic.size());
     if (begin.empty() || begin == magic) return;
-    throw InputError({path}, "this file is not a store of a study; expected the store of a shard");
+    throw InputError(
+        {path}, "this file is not a store of a study; expected a store that sweep --shard wrote");
 }
 
 void merge_and_remove(Store& store, const std::string& path) {
     // Opening for writing recovers the journal of a killed process, and fails if another process
     // writes.
     if (input_kind(path) == InputKind::nothing) {
-        throw InputError({path}, "there is no such file; expected the store of a shard");
+        throw InputError({path},
+                         "there is no such file; expected a store that sweep --shard wrote");
     }
     check_shard(path);
     Store::open_to_write(path);

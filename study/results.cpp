@@ -83,10 +83,11 @@ void check_balanced(const Rows& rows, const Cells& cells, const std::string& met
     const std::string lines = cells.unbalanced();
     if (lines.empty()) return;
     throw std::invalid_argument(fmt::format(
-        "{} cannot be averaged over {}, because some rows have no value in some cells (a cell is "
-        "one replication at one value of each of these keys). The means of the rows would be over "
-        "different cells and could not be compared.\n{}\nexpected --where KEY=VALUE with values "
-        "that every row has, or --common to average only the {} of {} cells that every row has",
+        "{} cannot be averaged over {}, because some rows of the result have no value in some "
+        "cells (a cell is one replication at one value of each of these keys). The means of the "
+        "rows would be over different cells and could not be compared.\n{}\nexpected --where "
+        "KEY=VALUE that leaves only cells in which every row has a value, or --common to average "
+        "only the {} of {} cells in which every row has a value",
         metric, fmt::join(rows.averaged, ", "), lines, cells.common(), cells.count()));
 }
 
@@ -180,8 +181,9 @@ std::string coverage_text(const Answers& answers) {
         texts.push_back(fmt::format("averaged over {}", fmt::join(answers.averaged, ", ")));
     }
     if (!answers.along.empty()) {
-        texts.push_back(fmt::format("not averaged over {} (each row has only one value)",
-                                    fmt::join(answers.along, ", ")));
+        texts.push_back(
+            fmt::format("not averaged over {} (each row has only one value of such a key)",
+                        fmt::join(answers.along, ", ")));
     }
     std::map<std::string, std::uint64_t> undefined;
     RunCounts runs;
@@ -202,7 +204,7 @@ std::string coverage_text(const Answers& answers) {
     }
     for (const auto& [metric, count] : undefined) {
         if (count > 0)
-            texts.push_back(fmt::format("{} {} no value of {}", runs_text(count),
+            texts.push_back(fmt::format("{} {} no value of the metric {}", runs_text(count),
                                         count == 1 ? "has" : "have", metric));
     }
     if (runs.failed > 0) texts.push_back(runs_text(runs.failed) + " failed");

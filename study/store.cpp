@@ -70,7 +70,8 @@ auto told(const std::string& path, auto&& act) {
             case SQLITE_NOTADB:
             case SQLITE_CORRUPT:
                 throw InputError({path},
-                                 "this file is not a store of a study, or the store is damaged");
+                                 "this file is not a store of a study, or the store is damaged; "
+                                 "give a different file, or restore a copy of the store");
             case SQLITE_ERROR:  // a statement of ours does not fit the tables that there are
             case SQLITE_MISMATCH: throw damaged_store(path, error.what());
             case SQLITE_FULL:
@@ -84,7 +85,7 @@ auto told(const std::string& path, auto&& act) {
                                ": cannot be written; check the permissions of the file and of "
                                "its folder, or give a different store with --store");
             default:
-                throw RunError(fmt::format("{}: {} (SQLite {}); finished runs are kept", path,
+                throw RunError(fmt::format("{}: {} (SQLite error {}); finished runs are kept", path,
                                            error.what(), error.getExtendedErrorCode()));
         }
     }
@@ -95,7 +96,7 @@ StoredPoint point_in(const StoredRow& row, const std::vector<StoredPoint>& befor
     StoredPoint point{row.number(1), row.text(2), {}};
     if (point.number != before.size()) {
         row.refuse(1, fmt::format("the number {}", point.number),
-                   fmt::format("{}: points are numbered from 0 on", before.size()));
+                   fmt::format("{}, because the points are numbered from 0 on", before.size()));
     }
     const Value settings = row.document(3);
     if (!settings.table()) row.refuse(3, settings.description(), "an object");
@@ -156,8 +157,9 @@ Store::Store(std::string path, std::unique_ptr<Database> database)
     const int made_by = database_->sqlite.execAndGet("PRAGMA application_id").getInt();
     const int version = database_->sqlite.execAndGet("PRAGMA user_version").getInt();
     if (made_by == 0 && database_->tables() == 0)
-        throw InputError(
-            {path_}, "this store has no runs yet; if its sweep was killed, run the sweep again");
+        throw InputError({path_},
+                         "this store has no runs yet; if the sweep that wrote this store was "
+                         "killed, run that sweep again");
     if (made_by != application) throw InputError({path_}, "this file is not a store of a study");
     if (version > format) {
         throw InputError({path_},

@@ -118,7 +118,9 @@ std::vector<Table> study_points(const StudyTable& study, const Location& where) 
         total *= axis.front()->values.size();
         if (total <= most_points) continue;
         throw InputError(
-            where, fmt::format("vary: more than {} points; expected fewer values", most_points));
+            where,
+            fmt::format("vary: more than {} points (combinations of values); expected fewer values",
+                        most_points));
     }
     std::vector<Table> points;
     for (std::size_t i = 0; i < total; ++i) {

@@ -341,10 +341,11 @@ Store open_store(const std::string& path, Study& study) {
         if (ids.contains(point.id)) continue;
         throw InputError(
             {path},
-            fmt::format("the store has runs of {}, but the study does not have this point: {}; "
-                        "expected --fresh, which deletes the stored runs, or a different --store",
-                        settings_text(point.settings),
-                        why_gone(point, study, store.document("scenario"), scenario)));
+            fmt::format(
+                "the store has runs of {}, but the study does not have this point (reason: {}); "
+                "expected --fresh, which deletes the stored runs, or a different --store",
+                settings_text(point.settings),
+                why_gone(point, study, store.document("scenario"), scenario)));
     }
     store.set_points(points);
     store.set_property("version", code_version());

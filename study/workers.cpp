@@ -237,7 +237,8 @@ std::optional<TaskEnd> Workers::wait(double seconds) {
         for (Worker* worker : owners) {
             if (worker->task && now_s() >= worker->deadline) {
                 return reap(*worker,
-                            fmt::format("the run took longer than {} s", *limits_.timeout_s));
+                            fmt::format("the run took longer than {} s, the limit of --timeout",
+                                        *limits_.timeout_s));
             }
         }
     } while (now_s() < until);

@@ -100,11 +100,12 @@ std::optional<Writer> writer_in(const std::string& lock) {
 std::string lock_file(const std::string& path) { return path + ".lock"; }
 
 [[noreturn]] void refuse(const std::string& path, const Writer& writer) {
-    throw RunError(fmt::format(
-        "{}: process {} on {} writes to this store, as the file {} says; wait until this process "
-        "ends; if the process has already ended, remove {} (this file system has no locks)",
-        path, writer.process, writer.host.empty() ? "a host" : writer.host, lock_file(path),
-        lock_file(path)));
+    throw RunError(
+        fmt::format("{}: process {} on {} writes to this store, as the file {} says; wait until "
+                    "this process ends; if the process has already ended, remove the file {} (this "
+                    "file system has no locks, so a killed process leaves this file behind)",
+                    path, writer.process, writer.host.empty() ? "a host" : writer.host,
+                    lock_file(path), lock_file(path)));
 }
 
 /// Removes a stale lock file. Another process may do the same and create its own lock file
@@ -127,9 +128,10 @@ bool make_lock(const std::string& path) {
     if (file.number() >= 0 && write(file.number(), text.data(), text.size()) == size) return true;
     const int error = errno;
     if (file.number() >= 0) unlink(lock.c_str());
-    throw RunError(fmt::format(
-        "{}: cannot be created ({}); check its folder, or give a different store with --store",
-        lock, std::strerror(error)));
+    throw RunError(
+        fmt::format("{}: cannot be created ({}); check the folder of this file, or give a "
+                    "different store with --store",
+                    lock, std::strerror(error)));
 }
 
 /// Takes the lock on the whole file. False if the file system has no such locks.

@@ -190,7 +190,7 @@ struct MetricValues {
                   "share of receiving robots that did not forward a broadcast"),
             field("latency", &M::latency, "latency of the deliveries"),
             field("hops_mean", &M::mean_hops, "mean number of hops of a delivery"),
-            field("hops_max", &M::max_hops, "most hops of a delivery"),
+            field("hops_max", &M::max_hops, "largest number of hops of a delivery"),
             field("routing", &M::routing, "cost of the routing protocol"),
             field("routed", &M::routed, "paths and delays of routed unicasts"),
             field("drops", &M::drops, "lost copies of messages, for each reason of the loss"));

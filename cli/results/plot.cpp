@@ -109,7 +109,7 @@ void plot(const PlotArguments& a) {
     if (!a.y_titles.empty() && a.y_titles.size() != a.y.size()) {
         throw std::invalid_argument(
             fmt::format("--y-title: given {} title{} for {} metric{}; expected one title for each "
-                        "metric of -y, in their order",
+                        "metric of -y, in the same order",
                         a.y_titles.size(), a.y_titles.size() == 1 ? "" : "s", a.y.size(),
                         a.y.size() == 1 ? "" : "s"));
     }

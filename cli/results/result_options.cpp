@@ -8,8 +8,8 @@ namespace {
 constexpr const char* only_points =
     "use only the runs with this value of a varied key, such as ttl=6";
 constexpr const char* only_cells =
-    "if some rows lack runs: compute every row only from those combinations of values and "
-    "replications that no row lacks";
+    "if some rows lack runs: use only the combinations of values and replications that every row "
+    "has";
 
 void add_results(Command app) {
     const auto [results, a] =
@@ -119,7 +119,7 @@ void add_plot(Command app) {
         "title of the x axis, such as 'robots on a square kilometre' (default: the key)");
     plot.add_option("--y-title", p.y_titles,
                     "title of the y axis (default: the metric); for several metrics, give one "
-                    "title for each, in their order")
+                    "title for each, in the same order")
         .one_word();
     plot.add_flag("--log-x", p.log_x, "give the x axis a logarithmic scale");
     plot.add_flag("--log-y", p.log_y, "give the y axis a logarithmic scale");

@@ -127,7 +127,7 @@ void warn_of_skewness(const std::vector<Answer>& list) {
     if (skewed == 0) return;
     notice(fmt::format(
         "warning: {} of {} intervals were computed by Student's t from values that are too skewed "
-        "for this method (the number of values is at most 25 times their squared skewness); these "
+        "for this method (it needs more values than 25 times the square of their skewness); these "
         "intervals may cover the true mean less often than stated; make more replications",
         skewed, list.size()));
 }

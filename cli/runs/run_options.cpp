@@ -54,7 +54,7 @@ void add_study_run(Command command, StudyArguments& a) {
 
 void add_sweep(Command app, const std::string& typed) {
     const auto [sweep, a] = add_command(
-        app, "sweep", "Run a study: every combination of its values, in every replication",
+        app, "sweep", "Run a study: all combinations of the varied values, in all replications",
         cli::sweep);
     sweep.add_examples(
         {"rovernet sweep examples/density/density.toml --dry-run",

@@ -122,7 +122,9 @@ std::string held_keys(const StudyTable& study, const Scenario& base, const std::
         keys.push_back(value ? fmt::format("{} = {}", vary.path, plain_text(*value)) : vary.path);
     }
     if (keys.empty()) return "";
-    return fmt::format("kept at the values of the file: {}", fmt::join(keys, ", "));
+    return fmt::format(
+        "not varied in this comparison, but kept at the values of the scenario file: {}",
+        fmt::join(keys, ", "));
 }
 
 /// Name of the baseline: of other keys than the model the first value, if none is given; empty for

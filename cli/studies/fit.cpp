@@ -260,13 +260,13 @@ void print_known(const Fit& fit) {
     }
     if (!std::isfinite(c.loss_error)) {
         fmt::print(
-            "too few links: they do not determine the loss that log_distance predicts for a link "
-            "at the limit of its budget; expected more links, in more than one group\n");
+            "too few links: these links do not determine the loss that log_distance predicts for a "
+            "link at the limit of the link budget; expected more links, in more than one group\n");
     } else if (c.loss_error > Calibration::enough) {
         fmt::print(
-            "too few links: the loss that log_distance predicts for a link at the limit of its "
-            "budget has a standard error of {:.2g} dB; expected more links, for a standard error "
-            "of {} dB or less\n",
+            "too few links: the loss that log_distance predicts for a link at the limit of the "
+            "link budget has a standard error of {:.2g} dB; expected more links, for a standard "
+            "error of {} dB or less\n",
             c.loss_error, Calibration::enough);
     }
 }

@@ -28,7 +28,9 @@ std::string submit(const std::vector<std::string>& command) {
     const std::string line = "exec " + shell_command(command);
     std::FILE* pipe = popen(line.c_str(), "r");
     if (!pipe)
-        throw RunError("cannot start the program sbatch: the system creates no process for it");
+        throw RunError(
+            "cannot start the program sbatch: the operating system cannot create a process; try "
+            "again later");
     char text[200] = {};
     const std::size_t size = std::fread(text, 1, sizeof text - 1, pipe);
     const int status = pclose(pipe);

@@ -116,7 +116,8 @@ SweepResult run_study(const StudyArguments& a, Study& study, Store& store, Sweep
     };
     const HeldStop until_kept;
     SweepResult result = rovernet::sweep(study, store, options);
-    detail(fmt::format("{} searches for paths around walls", result.progress.searches));
+    detail(
+        fmt::format("the runs made {} searches for paths around walls", result.progress.searches));
     return result;
 }
 
@@ -142,10 +143,10 @@ void check_precision(const Study& study, const SweepResult& result) {
     if (result.imprecise.empty()) return;
     constexpr std::size_t most = 20;
     const auto& list = result.imprecise;
-    std::string text = fmt::format(
-        "{} of {} points did not reach the precision {} of {} within {} replications:", list.size(),
-        study.points().size(), *study.table().precision, first_metric(study.table()),
-        study.table().max_replications);
+    std::string text =
+        fmt::format("{} of {} points did not reach the precision {} for {} within {} replications:",
+                    list.size(), study.points().size(), *study.table().precision,
+                    first_metric(study.table()), study.table().max_replications);
     for (const ImprecisePoint& point : std::span(list).first(std::min(list.size(), most))) {
         text += fmt::format("\n  {}: {}", settings_text(study.points()[point.point].settings),
                             reached_text(point));

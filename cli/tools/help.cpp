@@ -164,9 +164,10 @@ void print_search(const std::vector<std::string>& words, const std::vector<Comma
 void help(const HelpArguments& a) {
     const fs::path folder = help_folder();
     if (folder.empty())
-        throw CommandEnd(failed,
-                         "the documentation is not installed; expected share/doc/rovernet "
-                         "beside the folder of the command");
+        throw CommandEnd(
+            failed,
+            "the documentation is not installed; expected the folder share/doc/rovernet "
+            "beside the folder that contains the program rovernet");
     const std::vector<HelpPage> pages = help_pages(folder);
     std::istringstream said(fmt::format("{}", fmt::join(a.words, " ")));
     const std::vector<std::string> words(std::istream_iterator<std::string>(said), {});

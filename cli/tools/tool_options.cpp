@@ -32,7 +32,7 @@ void add_loss(Command app) {
         .required();
     loss.add_option("--heights", a.heights,
                     "heights of the antennas above the ground in metres: 1.5 for both, or 1.5,0.3 "
-                    "(default: 1 m)")
+                    "for sender and receiver (default: 1 m)")
         .delimiter(',');
     loss.add_option("--wall", a.wall, "length of the path inside a wall, such as 0.5 (in metres)");
     const Option out =

@@ -80,7 +80,8 @@ void verify(const ReplayArguments& a) {
     }();
     for (const std::string& text : v.damage) notice(a.file + ": " + text);
     print_verification(a, v);
-    if (v.difference) throw CommandEnd(failed, a.file + ": the run differs from its trace");
+    if (v.difference)
+        throw CommandEnd(failed, a.file + ": the new run differs from the recorded run");
     if (!v.is_identical()) {
         throw CommandEnd(failed, a.file +
                                      ": the trace is damaged or incomplete, so it is unknown "
@@ -267,7 +268,7 @@ void print_radios(const ReplayArguments& a, const Radios& radios, const std::vec
     print_robots(radios.day, rows);
     fmt::print(
         "\nRobots move and send as in the trace, whatever the new radio receives.\nThe columns "
-        "difference, gained and lost compare each row with the row \"{}\".\n",
+        "\"difference\", \"gained\" and \"lost\" compare each row with the row \"{}\".\n",
         radios.first);
     if (!radios.plays_first) return;
     fmt::print(
@@ -397,8 +398,8 @@ void add_replay(Command app) {
         "for an ns-2 trace: radio with which the radios of --with are compared, given as KEY=VALUE "
         "like --with");
     add("--routing", a.routing,
-        "for an ns-2 trace: how the replay forwards its messages: flood, or direct (one hop to the "
-        "destination; default: flood)")
+        "for an ns-2 trace: way in which the replay forwards messages, flood or direct (one hop to "
+        "the destination; default: flood)")
         .one_of({"flood", "direct"});
     add("--movements", a.movements, "for an ns-2 trace: movement file of its robots");
     add("--store", a.store,

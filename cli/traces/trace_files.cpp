@@ -53,7 +53,7 @@ void check_is_recorded(const TraceConvertArguments& a, std::string_view why) {
     need_file(a.in);
     throw InputError({.source = a.in},
                      fmt::format("{} can be made only from a recorded trace (rovernet run "
-                                 "--record), because {} in the recorded trace",
+                                 "--record), because {}, which only a recorded trace contains",
                                  a.to, why));
 }
 

@@ -138,9 +138,9 @@ void check_places(const std::string& path, const Ns2DayOptions& options, const D
         if (log.legs[i].empty()) unknown.push_back(i);
         for (const Leg& leg : log.legs[i]) {
             if (!is_far(leg.from) && !is_far(leg.to)) continue;
-            throw InputError(
-                {path},
-                fmt::format("robot {} is at a position more than 1e9 m from the origin", i));
+            throw InputError({path}, fmt::format("robot {} is at a position more than 1e9 m from "
+                                                 "the origin; expected at most 1e9 m",
+                                                 i));
         }
     }
     if (unknown.empty()) return;
@@ -150,7 +150,7 @@ void check_places(const std::string& path, const Ns2DayOptions& options, const D
     if (options.movements) {
         throw InputError(
             {*options.movements},
-            fmt::format("found no position of {}; expected the positions of all robots of {}",
+            fmt::format("found no position of {}; expected the positions of all robots in {}",
                         names, path));
     }
     throw InputError(

@@ -200,12 +200,12 @@ std::string RecordedDay::hears_farther(const std::vector<std::string>& set) cons
         run_.robots[farthest->from.index()], metres, seconds(farthest->time - start_of_run));
     if (disc)
         return fmt::format(
-            "{}, but the first radio of the replay reaches only {:g} m; give this radio a larger "
+            "{}, but the radio of this row reaches only {:g} m; give this radio a larger "
             "range: --as \"propagation.model=disc;propagation.range={:.0f} m\"",
             found, disc->range.value, std::ceil(metres));
     const double power = scenario.radio.power.value + std::ceil(missing * 10) / 10;
     return fmt::format(
-        "{}, but with the first radio of the replay, the received power is {:.1f} dB below the "
+        "{}, but with the radio of this row, the received power is {:.1f} dB below the "
         "sensitivity; give this radio enough power: --as \"radio.power={:.1f} dBm\"",
         found, missing, power);
 }

@@ -151,8 +151,8 @@ Scenario scenario_beside(const std::string& trace) {
     if (kind != InputKind::stream) need_file(trace);
     if (input_kind(path.string()) != InputKind::file) {
         throw InputError({trace},
-                         fmt::format("there is no {}; expected an ns-2 trace that rovernet "
-                                     "wrote, in the folder of its run",
+                         fmt::format("there is no {}; expected an ns-2 trace in the folder "
+                                     "to which rovernet wrote this trace",
                                      path.string()));
     }
     Scenario scenario = load_scenario(path.string(), {});

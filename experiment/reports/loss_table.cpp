@@ -112,7 +112,8 @@ std::vector<LossRow> loss_table(const std::string& model,
     std::vector<LossRow> rows;
     for (const Meters d : distances) {
         if (wall > d) {
-            throw InputError(option, fmt::format("{} m of wall do not fit into a path of {} m",
+            throw InputError(option, fmt::format("{} m of wall do not fit into a path of {} m; "
+                                                 "expected a shorter wall, or a larger distance",
                                                  wall.value, d.value));
         }
         const LinkBatch link{

@@ -56,9 +56,10 @@ inline boost::asio::local::stream_protocol::acceptor listen_on_path(boost::asio:
         boost::system::error_code error;
         probe.connect(endpoint, error);
         if (!S_ISSOCK(found.st_mode) || !error)
-            throw RunError(path +
-                           ": a file or a socket in use has this path already; expected a "
-                           "different path for the Unix socket");
+            throw RunError(
+                path +
+                ": there is already a file, or a socket in use, with this path; expected a "
+                "different path for the Unix socket");
         unlink(path.c_str());
     }
     const mode_t mask = umask(0077);

@@ -119,7 +119,8 @@ HelloRequest read_hello(const JsonElement& line, const Robots& robots) {
     HelloRequest hello;
     const JsonElement& version = needed(protocol, line, "protocol", "\"protocol\":1");
     if (version.whole_number(0, largest_count) != 1) {
-        version.fail("bad_protocol", "expected protocol 1, the only one of this server");
+        version.fail("bad_protocol",
+                     "expected \"protocol\":1, the only protocol version of this server");
     }
     if (name) {
         hello.name = name->text();

@@ -144,9 +144,10 @@ void DeviceAddresses::check_host(const Addressed& each, Network4 network) {
     if (network.bits() >= ip_bits - 1) return;
     const bool is_first = network.ip == network.first();
     if (!is_first && network.ip != network.last()) return;
-    const std::string what = fmt::format("the ip {} is {} of the network {}/{}", each.device.ip,
-                                         is_first ? "the address" : "the broadcast address",
-                                         ip_text(network.first()), network.bits());
+    const std::string what =
+        fmt::format("the ip {} is {} of the network {}/{}, not of a host", each.device.ip,
+                    is_first ? "the address" : "the broadcast address", ip_text(network.first()),
+                    network.bits());
     const RadioPlaces& places = each.places();
     const std::string mend =
         "expected the address of a host in this network, or a netmask with fewer bits that are 1";
@@ -178,7 +179,7 @@ void DeviceAddresses::tell_outsiders() {
         const std::size_t more = outside.size() - 1;
         const std::string before = place.source.empty() ? "" : place.text() + ": ";
         notices_.push_back(fmt::format(
-            "{}the network {}/{} of robot {} does not contain robot {}, {}{}: packets between "
+            "{}the network {}/{} of robot {} does not contain robot {} ({}){}: packets between "
             "these robots need routes that you set (ip route)",
             before, ip_text(from.network.first()), from.network.bits(), from.robot.device.robot,
             one.device.robot, one.device.ip, more == 0 ? "" : fmt::format(", and {} more", more)));

@@ -143,7 +143,10 @@ class Keeper {
 
     static int take(int maker) {
         const auto message = receive_descriptor(maker);
-        if (!message) throw RunError("the process that creates the network namespaces has ended");
+        if (!message)
+            throw RunError(
+                "the process that creates the network namespaces has ended; start rovernet emulate "
+                "again");
         if (message->descriptor < 0) throw RunError(message->text);
         return message->descriptor;
     }

@@ -88,7 +88,7 @@ bool Lockstep::come_back(Connection from, const HelloRequest& hello) {
         throw RequestError(
             "taken", "name",
             fmt::format("expected the robots and the step that controller {} had before it "
-                        "disconnected, or a different name",
+                        "disconnected, or a controller with a different name",
                         hello.name));
     }
     controller->connection = from;

@@ -66,7 +66,7 @@ void SteppedRun::reset(std::optional<std::uint64_t> seed) {
 
 ScenarioRun& SteppedRun::run() const {
     if (run_) return *run_;
-    throw RunError("the run is over; expected a reset first");
+    throw RunError("the run is over; expected reset() first");
 }
 
 void SteppedRun::command(std::size_t row, RobotCommand command) {
@@ -83,7 +83,7 @@ void SteppedRun::command(std::size_t row, RobotCommand command) {
 void SteppedRun::drive(std::span<const double> velocities, std::optional<Duration> timeout) {
     if (velocities.size() != 2 * robots_.size()) {
         throw std::invalid_argument(
-            fmt::format("expected velocities of shape ({}, 2)", robots_.size()));
+            fmt::format("expected an array of velocities with the shape ({}, 2)", robots_.size()));
     }
     const auto is_left = [&](std::size_t row) {
         return std::isnan(velocities[2 * row]) && std::isnan(velocities[2 * row + 1]);
@@ -120,7 +120,7 @@ void SteppedRun::fill_request() {
 
 bool SteppedRun::step(std::uint64_t most_events, const std::function<bool()>& go_on) {
     Session& session = run().session();
-    if (is_done()) throw RunError("the run is at its end; expected a reset or a finish");
+    if (is_done()) throw RunError("the run is at its end; expected reset() or finish()");
     fill_request();
     controller().ask(session, request_);
     controllers_.carry_out(session);

@@ -69,7 +69,8 @@ double XdrReader::f64() { return std::bit_cast<double>(number_in(take(8))); }
 
 double XdrReader::f64_within(double most) {
     const double number = f64();
-    if (!(std::abs(number) <= most)) throw MalformedMessage("a number is out of its range");
+    if (!(std::abs(number) <= most))
+        throw MalformedMessage("a number in the message is outside of the allowed range");
     return number;
 }
 

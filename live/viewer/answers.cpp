@@ -242,8 +242,8 @@ std::optional<Propagation> ViewerAnswers::other_model(const JsonElement& questio
     if (!has_member(question, "with")) return {};
     if (running_) {
         throw RequestError("not_recorded", "with",
-                           "a different propagation model can be shown only for a recorded run, "
-                           "after the end of this run");
+                           "a different propagation model can be shown only after the end of "
+                           "the run, and only if the run is recorded");
     }
     const std::string with(member(question, "with").text());
     if (!with.starts_with("propagation."))

@@ -203,7 +203,8 @@ void ViewFront::check_control(bool is_allowed, std::string_view what) const {
     if (!is_allowed) {
         throw RequestError(
             "not_allowed", "op",
-            fmt::format("the page may not {}; the option --view-control allows this", what));
+            fmt::format("the page is not allowed to {}; the option --view-control allows this",
+                        what));
     }
     if (is_over_) throw RequestError("over", "op", "the run has ended");
 }

@@ -101,13 +101,13 @@ void append(std::string& text, fmt::format_string<Values...> format, Values&&...
 /// Appends a comment with the field size for ns-2.
 void append_field(std::string& text, const Box& box) {
     append(text,
-           "# ns-2 stops at a target outside of the field; write load_flatgrid {:.0f} {:.0f}, or "
-           "larger numbers\n",
+           "# ns-2 ends with an error if a target is outside of the field; write load_flatgrid "
+           "{:.0f} {:.0f}, or larger numbers\n",
            std::floor(std::max(box.high.x, 0.0)) + 1, std::floor(std::max(box.high.y, 0.0)) + 1);
     if (box.low.x <= 0 || box.low.y <= 0) {
         append(text,
-               "# ns-2 also stops at a target whose x or y is not above 0; the smallest x in this "
-               "file is {:.2f}, the smallest y is {:.2f}\n",
+               "# ns-2 also ends with an error if x or y of a target is not above 0; the smallest "
+               "x in this file is {:.2f}, the smallest y is {:.2f}\n",
                box.low.x, box.low.y);
     }
 }

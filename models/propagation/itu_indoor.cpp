@@ -117,8 +117,8 @@ void ItuIndoor::check_frequency(Hertz f) const {
     const auto env = name_of(*environment);
     if (!coefficient && !nearest_row(coefficients, *environment, mhz)) {
         throw std::invalid_argument(fmt::format(
-            "itu_indoor: for environment \"{}\", the model has coefficients only at frequencies "
-            "that differ by more than a factor of {} from {} MHz: {}; give the key \"coefficient\"",
+            "itu_indoor: for environment \"{}\", the model has no coefficient within a factor of "
+            "{} of the frequency {} MHz, but only at {}; give the key \"coefficient\"",
             env, widest_ratio, mhz, frequencies(coefficients, *environment)));
     }
     if (floors.value_or(0) == 0) return;

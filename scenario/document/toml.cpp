@@ -141,7 +141,7 @@ bool is_list_of_tables(const Value& value) {
         return name.starts_with(step + ".");
     });
     if (dotted != names.end())
-        near = fmt::format("write a name that contains dots in quotes: \"{}\"", *dotted);
+        near = fmt::format("a name that contains dots needs quotes: \"{}\"", *dotted);
     throw InputError(option, fmt::format("no item of the list is named \"{}\"{}{}", step,
                                          near.empty() ? "" : "; ", near));
 }
@@ -166,10 +166,11 @@ Value& item_at(Array& list, const std::string& step, bool is_name, const Locatio
         Value& item = list[index];
         if (named == list.end() || &*named == &item) return item;
         throw InputError(
-            option, fmt::format("{0} is the number of one item of the list, and also the name of a "
-                                "different item; to mean the name, write \"{0}\" in quotes; to "
-                                "mean the number, give the name of the item that has this number",
-                                step));
+            option,
+            fmt::format("{0} is the number of one item of the list, and also the name of a "
+                        "different item; for the item with this name, write \"{0}\" in quotes; for "
+                        "the item with this number, write the name of that item",
+                        step));
     }
     if (named != list.end()) return *named;
     if (is_number) {
@@ -318,8 +319,8 @@ void set_value(Value& document, const std::string& path, Value value, const Loca
         const std::string step(take_key(steps));
         if (step.empty()) {
             throw InputError(where,
-                             "expected keys joined by single dots, such as radio.power; write a "
-                             "key that contains dots in quotes");
+                             "expected keys joined by single dots, such as radio.power; a key "
+                             "that contains dots needs quotes");
         }
         at = &descend(*at, step, is_name, where);
     }

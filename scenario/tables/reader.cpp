@@ -23,7 +23,7 @@ std::string unit_hint(const Value& value, std::string_view key, const Range& ran
         !unit.empty() && ((unit.front() | 0x20) >= 'a' && (unit.front() | 0x20) <= 'z');
     if (!value.where.is_option || !is_number || !has_unit) return "";
     return fmt::format(
-        "; a number without a unit is in SI units: write the unit, such as "
+        "; this number has no unit and was read in SI units; write the unit, such as "
         "{}=\"{} {}\"",
         key, plain_text(value), unit);
 }

@@ -157,8 +157,8 @@ const Vary& varied(const StudyTable& study, const std::string& path, const Locat
     }
     const std::string near = did_you_mean(path, paths);
     throw InputError(
-        where, fmt::format("{}: \"{}\" is not a key of vary; expected one of \"{}\"{}{}", in, path,
-                           fmt::join(paths, "\", \""), near.empty() ? "" : "; ", near));
+        where, fmt::format("{}: \"{}\" is not a key of \"vary\"; expected one of \"{}\"{}{}", in,
+                           path, fmt::join(paths, "\", \""), near.empty() ? "" : "; ", near));
 }
 
 void read_zip(const Value& value, StudyTable& study) {
@@ -195,11 +195,12 @@ void check_varied(const Vary& vary, const Value& value) {
     const std::string near = did_you_mean(plain_text(value), words);
     const bool is_cut = texts.size() > most_shown;
     texts.resize(std::min(texts.size(), most_shown));
-    throw InputError(value.where,
-                     fmt::format("exclude: found {} = {}, which is not among the values of vary; "
-                                 "expected one of {}{}{}{}",
-                                 vary.path, to_toml(value), fmt::join(texts, ", "),
-                                 is_cut ? ", ..." : "", near.empty() ? "" : "; ", near));
+    throw InputError(
+        value.where,
+        fmt::format("exclude: found {} = {}, which is not among the values of \"vary\"; "
+                    "expected one of {}{}{}{}",
+                    vary.path, to_toml(value), fmt::join(texts, ", "), is_cut ? ", ..." : "",
+                    near.empty() ? "" : "; ", near));
 }
 
 void read_exclude(const Value& value, StudyTable& study) {

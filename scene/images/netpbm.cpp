@@ -88,10 +88,10 @@ class NetpbmReader {
         const int high = max_value_ > 255 ? byte() : 0;
         const int value = 256 * high + byte();
         if (value > max_value_)
-            fail(
-                fmt::format("found in {} the sample {}, which is above the maxval {} of the file's "
-                            "header; expected samples up to the maxval; save the picture again",
-                            name_, value, max_value_));
+            fail(fmt::format(
+                "found in the {} file a sample {}, which is above the maxval {} of the file's "
+                "header; expected samples up to the maxval; save the picture again",
+                name_, value, max_value_));
         return value;
     }
     std::uint8_t scaled(int value) const {

@@ -159,9 +159,10 @@ void Loader::include(WorldScanner& scanner, const WorldToken& keyword) {
     const Location where = out_.where(name);
     if (found.path) return add_file(*found.path, where);
     if (!lenient_) {
-        throw InputError(where, fmt::format("no file \"{}\" to include; tried the paths {}; give "
-                                            "the file's folder with --world-path or in STAGEPATH",
-                                            name.text, found.places()));
+        throw InputError(
+            where, fmt::format("no file \"{}\" to include; tried the paths {}; give "
+                               "the file's folder with --world-path or in the variable STAGEPATH",
+                               name.text, found.places()));
     }
     out_.notices.push_back(fmt::format(
         "{}:{}: the include file \"{}\" is missing, so it is left out; tried the paths {}",

@@ -40,8 +40,8 @@ Chart error_chart(const Advice& advice, const std::string& title, const std::str
         .x_label = x_label,
         .y_label = "error of " + advice.metric,
         .note = fmt::format(
-            "errors relative to {}, with {:.4g} % intervals; coloured band: errors up to the "
-            "tolerance of {:.4g} {}",
+            "errors are differences from {}, drawn with {:.4g} % intervals; coloured band: errors "
+            "up to the tolerance of {:.4g} {}",
             c.name_of(c.reference_path_loss(), c.reference_reception()),
             100 * (1 - advice.rule.alpha), advice.rule.tolerance,
             advice.rule.criterion == ErrorCriterion::mean ? "for the mean" : "for a single run"),

@@ -79,11 +79,12 @@ CandidateCost cost_of(double run_s, double transmissions, const MediumCosts& cos
 
 std::string percent_text(double share) { return fmt::format("{:.2g} %", 100 * share); }
 
-/// "its mean delivery_ratio differs by less than 0.02 from the mean of rays + sinr"
+/// "the mean delivery_ratio with this model differs by less than 0.02 from the mean with friis"
 std::string nearness_text(const Advice& advice, const std::string& reference) {
     if (advice.rule.criterion == ErrorCriterion::mean) {
-        return fmt::format("its mean {} differs by less than {:.4g} from the mean of {}",
-                           advice.metric, advice.rule.tolerance, reference);
+        return fmt::format(
+            "the mean {} with this model differs by less than {:.4g} from the mean with {}",
+            advice.metric, advice.rule.tolerance, reference);
     }
     return fmt::format(
         "its {0} differs from the {0} of {1} in the same replication by at most {2:.4g} on average",
@@ -106,7 +107,8 @@ std::string open_text(const JudgedCandidate& each) {
         ways.push_back(fmt::format("about {} replications would decide", *needed));
     }
     if (const auto tolerance = each.decision.deciding_tolerance()) {
-        ways.push_back(fmt::format("would be sufficient with --tolerance {:.2g}", *tolerance));
+        ways.push_back(
+            fmt::format("with --tolerance {:.2g} this model would be sufficient", *tolerance));
     }
     return ways.empty() ? each.name : fmt::format("{} ({})", each.name, fmt::join(ways, "; "));
 }
@@ -158,9 +160,9 @@ void add_costs(Advice& advice, Study& study, const std::function<bool()>& stoppe
     if (!costs.models.empty()) {
         advice.cost_text = fmt::format(
             "CPU/transmission: CPU time to find the receivers of one transmission (median of {} "
-            "measurements of {:.2g} s over the same {} frames)\nCPU/run: CPU time of a run without "
-            "path planning (median of {} replications)\nof run: the share of CPU/run that is spent "
-            "to find receivers",
+            "measurements, each of {:.2g} s and with the same {} frames)\nCPU/run: CPU time of a "
+            "run without path planning (median of {} replications)\n\"of run\": the share of "
+            "\"CPU/run\" that is spent to find receivers",
             costs.turns, costs.turn_s, costs.frames, runs.replications);
     }
 }
@@ -185,8 +187,8 @@ std::string advice_text(const Advice& advice) {
         advice.rule.by_betting() ? ", whatever the distribution" : ", by Student's intervals");
     if (advice.saves_nothing()) {
         return fmt::format(
-            "Take the reference, {}. The radio takes only {} of a run's {:.2g} ms of CPU time, so "
-            "a cheaper model saves almost nothing. {} would be sufficient: {} ({}).{}",
+            "Take the reference, {}. The radio takes only {} of the CPU time of a run ({:.2g} ms), "
+            "so a cheaper model saves almost nothing. {} would be sufficient: {} ({}).{}",
             reference, percent_text(advice.reference_cost.share.value_or(0)),
             1e3 * advice.reference_cost.run_s, chosen->name, nearness_text(advice, reference), sure,
             undecided_text(advice));

@@ -35,8 +35,8 @@ double cpu_s(const Store& store) {
 std::string text_of(const MediumCosts& costs, double least_share, double most_share) {
     constexpr double little = 0.1;
     std::string text = fmt::format(
-        "CPU/frame: CPU time to find the receivers of one frame (median of {} measurements of "
-        "{:.3g} s, each over the same {} frames)\nfinding the receivers takes {:.2g} to {:.2g} % "
+        "CPU/frame: CPU time to find the receivers of one frame (median of {} measurements, each "
+        "of {:.3g} s and with the same {} frames)\nfinding the receivers takes {:.2g} to {:.2g} % "
         "of a run's CPU time",
         costs.turns, costs.turn_s, costs.frames, 100 * least_share, 100 * most_share);
     if (most_share < little) {

@@ -30,8 +30,9 @@ void add_marks(Chart& chart, const std::string& path, const MarkColumns& columns
         const std::string name = columns.by.empty() ? "" : table.text(row, columns.by);
         const auto found = std::find(curves.begin(), curves.end(), name);
         if (found == curves.end()) {
-            table.fail(row, columns.by,
-                       fmt::format("the name of one of the curves {}", fmt::join(curves, ", ")));
+            table.fail(
+                row, columns.by,
+                fmt::format("the name of a curve of the chart ({})", fmt::join(curves, ", ")));
         }
         const auto x = number_in(table, row, columns.x, columns.unit);
         auto point = point_of(table, row, columns.y);

@@ -64,7 +64,7 @@ std::string methods_text(const std::vector<Answer>& list) {
     }
     const auto skewed = std::ranges::count_if(list, &Answer::skewed);
     if (skewed > 0)
-        text += fmt::format(" (the values of {} of {} means are too skewed for Student's t)",
+        text += fmt::format(" (for {} of {} means, the values are too skewed for Student's t)",
                             skewed, list.size());
     return text;
 }
@@ -235,7 +235,8 @@ Chart study_chart(const Store& store, const ChartQuestion& question) {
     if (q.beside.empty()) return chart;
     if (chart.kind != ChartKind::lines || !numbers) {
         throw std::invalid_argument(
-            "--beside: expected a chart of lines, with numbers along the x axis");
+            "--beside: this option needs a chart of lines with numbers along the x axis; expected "
+            "--kind lines, and a key with numbers for -x");
     }
     add_marks(chart, q.beside,
               {.x = question.x, .unit = numbers->unit, .by = question.by, .y = q.y});

@@ -35,7 +35,8 @@ Chart table_chart(const std::string& path, const ChartQuestion& q) {
     if (rows.empty())
         throw std::invalid_argument(
             "no row of the table " + path +
-            " meets the conditions of --where and has a value in the column of -y");
+            " meets the conditions of --where and has a value in the column of -y; expected other "
+            "conditions, or a different column for -y");
     std::vector<std::string> places;
     for (const std::size_t row : rows) places.push_back(table.text(row, q.x));
     const auto numbers = numbers_of(places, q.x);

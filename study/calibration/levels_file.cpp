@@ -77,8 +77,8 @@ class LevelsReader {
             if (column(needed) || (by_place && needed.starts_with("to_"))) continue;
             throw InputError(
                 lines_.where(),
-                fmt::format("no column \"{}\"; expected at least from_x_m, from_y_m, to_x_m, "
-                            "to_y_m{} and level_dbm",
+                fmt::format("no column \"{}\"; expected at least the columns from_x_m, from_y_m, "
+                            "to_x_m, to_y_m{} and level_dbm",
                             needed,
                             receivers == Receivers::known
                                 ? ""

@@ -26,9 +26,9 @@ constexpr double power = 0.8;
 std::vector<double> differences_of(std::span<const double> a, std::span<const double> b) {
     constexpr std::string_view owner = "compare_pairs";
     if (a.size() != b.size()) {
-        throw std::invalid_argument(
-            fmt::format("{}: expected pairs, but there are {} values and {} values", owner,
-                        a.size(), b.size()));
+        throw std::invalid_argument(fmt::format(
+            "{}: expected pairs of values, but one list has {} and the other list has {} values",
+            owner, a.size(), b.size()));
     }
     check_finite(a, owner);
     check_finite(b, owner);
@@ -282,7 +282,8 @@ std::string equivalence_text(std::string_view a, std::string_view b, double marg
     }
     const std::string more =
         verdict.needed
-            ? fmt::format("about {} replications like these would decide", *verdict.needed)
+            ? fmt::format("about {} replications like these would be enough for a decision",
+                          *verdict.needed)
             : "the number of replications that a decision needs cannot be estimated";
     return fmt::format("{} replications do not decide whether {} is within {:.6g} of {} ({}); {}",
                        n, a, margin, b, level, more);

@@ -110,7 +110,7 @@ std::optional<std::vector<double>> newton_step(std::vector<std::vector<double>> 
 
 void check_rows(const Observations& observations, const std::vector<bool>& unseen) {
     if (unseen.size() != observations.rows()) {
-        throw std::invalid_argument("tobit: unseen must have one value for each row");
+        throw std::invalid_argument("tobit: the list \"unseen\" must have one value for each row");
     }
     for (const double y : observations.y) {
         if (!std::isfinite(y)) throw std::invalid_argument("tobit: numbers must be finite");

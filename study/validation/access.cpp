@@ -122,10 +122,10 @@ Duration next_access(const Missed& c) {
 
 void check_access(Promises& promises) {
     Promise throughput{
-        "throughput of 1 to 20 saturated stations, against Bianchi's model, relative error", "",
+        "throughput of 1 to 20 saturated stations, against Bianchi's model (relative error)", "",
         0.012, 0, 0};
     Promise collisions{
-        "share of the frames of 1 to 20 saturated stations that collide, against Bianchi's model",
+        "share of frames that collide if 1 to 20 stations are saturated, against Bianchi's model",
         "", 0.012, 0, 0};
     for (const int n : {1, 5, 20}) {
         const CellErrors errors = cell_errors(n);
@@ -134,8 +134,8 @@ void check_access(Promises& promises) {
     }
     constexpr Duration difs = 50us, eifs = 10us + 304us + difs;
     Promise access{
-        "time of a station's next frame after a frame that it did not decode, against the rules of "
-        "EIFS",
+        "time at which a station sends after a frame that the station did not decode, against the "
+        "rules of EIFS",
         "ns", 0, 0, 0};
     for (const Missed& c : {
              Missed{EifsRule::standard, 250, -200, 100, 200, 990us + eifs},

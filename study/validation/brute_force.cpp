@@ -79,8 +79,8 @@ double power_by_tracer(const Room& room, int order) {
 
 Promise rooms() {
     constexpr double limit = 1e-9;  // [dB]
-    Promise out{"power over all paths in a room, against a sum over image sources", "dB", limit, 0,
-                0};
+    Promise out{"sum of the powers of all ray paths in a room, against a sum over image sources",
+                "dB", limit, 0, 0};
     for (const Room& room :
          {Room{6, 4, {1, 1, 1}, {4.5, 3, 1.5}}, Room{10, 7.5, {0.3, 7, 1}, {9.1, 0.4, 1}},
           Room{30, 2.5, {1.2, 1.1, 2}, {28, 1.9, 1}}}) {
@@ -111,8 +111,10 @@ double field_correlation(double moved, std::uint32_t seeds) {
 Promise shadowing_field() {
     constexpr double limit = 0.03;
     constexpr std::uint32_t seeds = 20'000;
-    Promise out{"correlation of the shadowing field over a distance D, against exp(-D / d_cor)", "",
-                limit, 0, 0};
+    Promise out{
+        "correlation of the shadowing field over a distance D, against exp(-D / d_cor) with the "
+        "decorrelation distance d_cor",
+        "", limit, 0, 0};
     for (const double moved : {1.0, 5.0, 10.0, 20.0, 40.0}) {
         out.add(field_correlation(moved, seeds) - math::exp(-moved / 10));
     }
@@ -146,15 +148,17 @@ Promise seen_levels() {
     const double worst =
         std::max({std::abs(line.coefficients[0] - 0.5), std::abs(line.coefficients[1] - 0.6),
                   std::abs(line.sigma - std::sqrt(0.05))});
-    return {"line fitted by Tobit regression without missing levels, against least squares by hand",
-            "", limit, worst, 3};
+    return {
+        "line fitted by Tobit regression without missing levels, against a line of least squares "
+        "computed by hand",
+        "", limit, worst, 3};
 }
 
 /// Wrong decisions of the disc that was found, beyond those of the best of all.
 Promise discs() {
     Promise out{
-        "number of links that the fitted disc decides wrongly, against the smallest number of all "
-        "discs",
+        "number of links that the fitted disc decides wrongly, against the smallest such number "
+        "that a disc can have",
         "", 0, 0, 0};
     for (std::uint64_t set = 0; set < 20; ++set) {
         std::vector<DiscLink> links;
@@ -185,8 +189,8 @@ Promise level_crossings() {
     constexpr Hertz frequency{2450e6};
     constexpr double limit = 0.2;  // of 60 fields of 32 waves; 270 crossings of -15 dB by m = 2
     Promise out{
-        "rate of level crossings of nakagami fading with coherence = place, m = 1 and 2, against "
-        "the closed form, relative error",
+        "rate at which nakagami fading (m = 1 and 2, coherence = \"place\") crosses a level, "
+        "against the closed form (relative error)",
         "", limit, 0, 0};
     for (const double m : {1.0, 2.0}) {                     // Gamma(m) = 1
         const std::vector<double> levels{-15, -10, -5, 0};  // [dB]
@@ -229,8 +233,9 @@ Promise false_advice() {
     const auto one_in_two = [](std::uint64_t study, std::uint64_t r) {
         return validation_draw("advice", study, r) < 0.5 ? 2 * tolerance : 0;
     };
-    Promise out{"share of false verdicts of advise on models whose error equals the tolerance", "",
-                limit, 0, 0};
+    Promise out{
+        "share of false verdicts if rovernet advise judges models whose error equals the tolerance",
+        "", limit, 0, 0};
     const auto share_of = [&](const auto& difference) {
         double wrong = 0;
         for (std::uint64_t study = 0; study < studies; ++study) {

@@ -136,9 +136,8 @@ ValidationChart corridor_chart(const ValidationSize& size) {
                               &one = point_of(panel, "rays, order 1"),
                               &three = point_of(panel, "rays, order 3");
         chart.sentences.push_back(fmt::format(
-            "{}: the rms error of the loss by rays is {:.2g} dB with order 0 (no reflections), "
-            "{:.2g} dB with order 1 and {:.2g} dB with order 3. Order 3 takes {} times the CPU "
-            "time of order 1.",
+            "{}: the rms error of rays is {:.2g} dB with order 0 (no reflections), {:.2g} dB with "
+            "order 1 and {:.2g} dB with order 3. Order 3 takes {} times the CPU time of order 1.",
             panel.title, none.error, one.error, three.error,
             two_digits(three.cost.median / one.cost.median)));
     }

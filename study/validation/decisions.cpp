@@ -231,10 +231,10 @@ ValidationChart decisions_chart(const ValidationSize& size, Promises& promises) 
             "friis?\": the decision is whether the loss of friis is within a link budget of 90 dB, "
             "at distances that differ from the range of friis by at most 1 %. \"up under "
             "shadowing?\": the same decision for log_distance with 6 dB of shadowing, at distances "
-            "of 0.1 to 1.9 times its median range. \"stronger by 10 dB?\": the decision is whether "
-            "one of two frames is at least 10 dB stronger than the other; the senders of the "
-            "frames are up to 300 m from the receiver. A method whose name begins with \"table of "
-            "N\" looks up logarithms in a table with N entries.",
+            "of 0.1 to 1.9 times the median range of this model. \"stronger by 10 dB?\": the "
+            "decision is whether one of two frames is at least 10 dB stronger than the other; the "
+            "senders of the frames are up to 300 m from the receiver. A method whose name begins "
+            "with \"table of N\" looks up logarithms in a table with N entries.",
         .panels = {by_distance(size), by_pair(size), by_level(size)},
         .for_contributors = true};
     for (const ValidationPanel& panel : chart.panels) {

@@ -101,9 +101,9 @@ std::string headline_svg(const Validation& validation) {
     std::stable_partition(scenes.begin(), scenes.end(),
                           [](const ValidationPanel* p) { return p->title != "open field"; });
     FitChart out{
-        .title = "Which model is good enough? It depends on the place, and on the fit",
+        .title = "Which model is good enough? It depends on the scene, and on the fit",
         .subtitle = {},
-        .value_label = "error of the delivery ratio of one run (0.4: 40 of 100 deliveries wrong)"};
+        .value_label = "error of a run's delivery ratio (0.4: 40 of 100 deliveries are wrong)"};
     for (const ValidationPanel* scene : scenes) out.panels.push_back(fit_panel_of(*scene));
     out.subtitle = subtitle_of(*scenes.front(), out.panels.front());
     out.notes = {fmt::format("Means of {:.0f} runs with robots that move. Cost: CPU time to find "

@@ -101,9 +101,9 @@ ValidationChart interference_cut_chart(const ValidationSize& size) {
     return {.name = "interference_cut",
             .title = "How weak may a frame be and still interfere?",
             .truth = fmt::format(
-                "60 robots send at random, together one message every 10 ms, in {} replications "
-                "with `sinr`. Frames that are weaker than the sensitivity by more than the cut do "
-                "not interfere. The reference is a cut of {:g} dB, which ignores only frames more "
+                "Every 10 ms, a random one of 60 robots sends a message, in {} replications with "
+                "`sinr`. A frame does not interfere if its level is below the sensitivity by more "
+                "than the cut. The reference is a cut of {:g} dB, which ignores only frames more "
                 "than 10 dB below the noise. The cost is the CPU time of the whole run.",
                 replications, complete_cut),
             .panels = {panel},
@@ -124,9 +124,9 @@ ValidationChart reception_chart(const ValidationSize& size) {
     ValidationChart chart{
         .name = "reception",
         .title = "Which model of reception?",
-        .truth = fmt::format("In {} replications, each message is sent by one of 60 robots, drawn "
-                             "at random. The reference is `sinr` with all interference. The cost "
-                             "is the CPU time of the whole run.",
+        .truth = fmt::format("In {} replications, 60 robots send messages. The sender of each "
+                             "message is drawn at random. The reference is `sinr` with all "
+                             "interference. The cost is the CPU time of the whole run.",
                              replications),
         .panels = {delivery_panel("a message each 100 ms", storm("100 ms"), variants, replications),
                    delivery_panel("a message each 10 ms", storm("10 ms"), variants, replications)}};

@@ -198,7 +198,7 @@ ValidationPanel changes_panel(const Passes& where, const std::vector<Changes>& t
                               const ValidationSize& size, double& latest) {
     ValidationPanel panel{.title = where.title,
                           .cost_label = "CPU per second of a link [ns]",
-                          .error_label = "state wrong for, per change [ms]"};
+                          .error_label = "time in a wrong state, per change [ms]"};
     const std::vector<ChangeMethod> methods = change_methods(where, size);
     std::vector<TimedMethod> timed;
     for (const ChangeMethod& method : methods) {

@@ -154,12 +154,11 @@ ValidationChart map_drawing_chart(const ValidationSize& size) {
     ValidationChart chart{
         .name = "map_drawing",
         .title = "How fine must a map be, and how must walls be drawn?",
-        .truth = fmt::format(
-            "The cases are {} links in an office whose walls stand at 20 degrees to the cells of "
-            "its maps. Each model has its default parameters. The reference is the same model with "
-            "the exact walls. Outlines: the map shows only those cells of a wall that touch a free "
-            "cell.",
-            links.size())};
+        .truth = fmt::format("The cases are {} links in an office whose walls stand at 20 degrees "
+                             "to the cells of the maps. Each model has its default parameters. The "
+                             "reference is the same model with the exact walls. Outlines: the map "
+                             "shows only those cells of a wall that touch a free cell.",
+                             links.size())};
     for (const Propagation& model : models_that_see(exact, links)) {
         chart.panels.push_back(drawing_panel(model, drawings, exact, links, size));
         chart.sentences.push_back(cell_sentence(chart.panels.back()));

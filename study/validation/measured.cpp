@@ -147,11 +147,10 @@ ValidationPanel building_panel(const MeasuredBuilding& building, const Validatio
         .error_label = "error on another drive or day, rms [dB]",
         .log_error = false,
         .unknowable = repeated.one_level(),
-        .interval_label =
-            "end of a bar: error if each receiver is predicted without its own levels",
+        .interval_label = "end of a bar: error if a receiver's own levels are left out of the fit",
         .points = judged.points};
     panel.unknowable_label = fmt::format(
-        "repeated measurements differ by {:.2f} dB: even a perfect model is {:.2f} dB off",
+        "repeated measurements differ by {:.2f} dB, so even a perfect model errs by {:.2f} dB",
         repeated.rms, repeated.one_level());
     std::vector<TimedMethod> timed;
     for (const Propagation& model : judged.models) {
@@ -223,7 +222,7 @@ ValidationChart measured_chart(const std::string& folder, const ValidationSize& 
                                Promises& promises) {
     ValidationChart chart{
         .name = "measured",
-        .title = "How wrong are models of measured buildings?",
+        .title = "How wrong are the models in measured buildings?",
         .truth =
             "The levels are local means in a furnished flat, from drives of a robot (Kolakowski, "
             "Sensors 21, 2021, CC BY 4.0), and medians in an open laboratory (Danis et al., "

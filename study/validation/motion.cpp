@@ -55,8 +55,8 @@ void check_random_waypoint(Promises& promises) {
     promises.push_back({"mean speed under random waypoint, against (max - min) / ln(max / min)", "",
                         0.035, worst_speed, 3});
     promises.push_back(
-        {"share of robots at rest under random waypoint, against E[P] / (E[P] + E[T]) of pause P "
-         "and trip T",
+        {"share of robots at rest under random waypoint, against E[P] / (E[P] + E[T]) for pauses "
+         "of P and trips of T seconds",
          "", 0.032, worst_rest, 3});
 }
 

@@ -201,8 +201,9 @@ std::string nearest_sentence(const ValidationPanel& panel,
 /// How far the truth itself is known to be true; first of all sentences.
 std::string truth_sentence(const ValidationPanel& panel, const Truth& truth) {
     if (!truth.own_error) {
-        return fmt::format("{}: {} is the reference; its own error is not known here.", panel.title,
-                           truth.model.label);
+        return fmt::format(
+            "{}: {} is the reference; the error of this reference is not known here.", panel.title,
+            truth.model.label);
     }
     return fmt::format(
         "{0}: {1} is the reference. In a measured {2}, the rms error of {1} itself ({5}) is "
@@ -221,8 +222,8 @@ std::string convergence_sentence(const ValidationPanel& panel,
         if (p.series == fewer_paths) forms.push_back(fmt::format("{} ({})", p.label, off(p.error)));
     }
     if (forms.empty()) return "";
-    return fmt::format("{}: errors of the reference model if it computes fewer paths: {}.",
-                       panel.title, fmt::join(forms, "; "));
+    return fmt::format("{}: errors of the reference model with fewer paths: {}.", panel.title,
+                       fmt::join(forms, "; "));
 }
 
 /// Models that cost more, or less, because their reach is another one.
@@ -238,7 +239,7 @@ std::string reach_sentence(const ValidationPanel& panel) {
             const bool more = after > much * before && fitted.cost.median > given.cost.median;
             const bool less = before > much * after && fitted.cost.median < given.cost.median;
             if (more || less)
-                models.push_back(fmt::format("{} {:.1f} receivers ({:.1f} without the fit)",
+                models.push_back(fmt::format("{} with {:.1f} receivers ({:.1f} without the fit)",
                                              given.label, after, before));
         }
     }
@@ -285,7 +286,7 @@ ScenePanels panels_of(const ValidationScene& scene, const Truth& truth, std::siz
         delivery.unknowable = run_errors(runs.back(), runs.front()).mean;
         links.unknowable = 100 * wrong_by_its_error(calibration, *truth.own_error);
         delivery.unknowable_label = links.unknowable_label =
-            fmt::format("error of {} if losses are {:.1f} dB wrong, as measured in one {}",
+            fmt::format("error of {} itself (losses wrong by {:.1f} dB in one measured {})",
                         truth.model.label, truth.own_error->value, truth.building);
     }
     for (std::size_t i = 0; i < models.size(); ++i) {

@@ -29,8 +29,8 @@ double loss_of(const Rays& model, const Scene& scene, Vec3 from, Vec3 to) {
 Promise wall_ends() {
     constexpr double limit = 0.1;  // [dB]
     Promise out{
-        "rays: change of the loss if the receiver moves by 1 mm behind the end of a wall without a "
-        "given material",
+        "rays: change of the loss if the receiver moves by 1 mm behind the end of a wall whose "
+        "material is not given",
         "dB", limit, 0, 0};
     const Scene scene(
         drawn_map(20, 20, 0.05, [](Vec3 p) { return std::abs(p.x - 10) < 0.05 && p.y < 10; }));
@@ -50,8 +50,8 @@ Promise wall_ends() {
 /// Loss behind blocks of metal, with utd, by the mean power of 31 places.
 Promise behind_blocks() {
     constexpr double limit = 0.5;  // [dB]
-    Promise out{"rays: loss behind a solid block with UTD, against the computed field of a wave",
-                "dB", limit, 0, 0};
+    Promise out{"rays with UTD: loss behind a solid block, against a computed wave field", "dB",
+                limit, 0, 0};
     for (const BlockShadow& shadow : block_shadows) {
         const Scene scene(drawn_map(20, 12, 0.05,
                                     [&](Vec3 p) {
@@ -77,7 +77,7 @@ Promise slanting_walls() {
     constexpr double limit = 0.5;  // [dB]
     Promise out{
         "rays: loss with a wall drawn at 15 angles to the cells, against the loss with this wall "
-        "drawn along the cells, rms",
+        "drawn along the cells (rms)",
         "dB", limit, 0, 0};
     const auto is_wall = [](Vec3 p) { return std::abs(p.x) < 2 && std::abs(p.y) < 0.1; };
     const auto drawn_at = [&](double angle) {

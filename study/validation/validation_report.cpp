@@ -61,7 +61,7 @@ DotPlot plot_of(const ValidationPanel& panel) {
         return a.dots.back().beside < b.dots.back().beside;
     });
     plot.note =
-        fmt::format("cheapest first; bold: {} the reference than everything cheaper",
+        fmt::format("cheapest method first; bold: {} to the reference than all cheaper methods",
                     have_intervals(panel.points) ? "surely nearer" : "in these cases nearer");
     if (below)
         plot.note += fmt::format("; errors below {:.1g} are drawn at the left end", plot.least);
@@ -267,9 +267,9 @@ std::string accuracy_page(const Validation& validation) {
 std::string promises_page(const Validation& validation) {
     std::string out =
         "# What the code promises\n\n`rovernet validate` measures the errors in this table. If an "
-        "error exceeds its limit, the command fails. A row names the error first, and after "
-        "\"against\" the reference. The column \"worst case\" has the largest error of all "
-        "cases.\n\n";
+        "error exceeds its limit, the command fails. In each row, the words before \"against\" "
+        "name what is measured, and the words after \"against\" name the reference. The column "
+        "\"worst case\" has the largest error of all cases.\n\n";
     out += markdown_table(rows_of(validation.promises)) + "\n";
     for (const ValidationChart& chart : validation.charts)
         if (chart.for_contributors) out += chart_section(chart, "../methods/accuracy/");

@@ -82,8 +82,8 @@ double worst_count(const SlantingWalls& walls, double cell, std::size_t& n) {
 
 Promise wall_counts() {
     Promise out{
-        "number of walls that a link crosses, for links at 2 to 90 degrees to walls at 15 angles, "
-        "against the number of walls drawn",
+        "number of walls that a link crosses (walls drawn at 15 angles, links at 2 to 90 degrees "
+        "to the walls), against the number of drawn walls",
         "", 0, 0, 0};
     for (const double angle :
          {0.0, 1.0, 3.0, 7.0, 12.0, 20.0, 26.565, 33.0, 40.0, 45.0, 52.0, 61.0, 70.0, 83.0, 89.5}) {

@@ -165,9 +165,9 @@ std::string naive_sentence(const ValidationPanel& panel) {
     });
     const ValidationPoint& best = *naive.point;
     return fmt::format(
-        "Of the approximate methods for this length, the method {}. This method takes {} times the "
-        "CPU time of the exact method, and changes {:.2g} % of the decisions whether the link is "
-        "up.",
+        "Approximate methods for this length: {}. The method with the smallest error takes {} "
+        "times the CPU time of the exact method, and decides wrongly for {:.2g} % of the links "
+        "whether the link is up.",
         nearest_text(naive, [](double error) { return fmt::format("rms error {:.2g} dB", error); }),
         two_digits(best.cost.median / exact.cost.median), detail_of(best, "flipped decisions [%]"));
 }
@@ -187,8 +187,8 @@ ValidationChart wall_length_chart(const ValidationSize& size, Promises& promises
         panel.points.push_back(judged_lengths(method, links, truth, worst));
         if (method.label == "rovernet") {
             promises.push_back(
-                {"length of the path of a link inside walls, against the sum of the lengths inside "
-                 "each wall",
+                {"total length of a link inside walls, against the sum of the lengths inside each "
+                 "wall",
                  "m", 1e-8, worst, links.size()});
         }
         timed.push_back(timed_sum(links, method.length));

@@ -147,7 +147,7 @@ TEST_CASE("run: runs with different values of --set have folders with different 
 }
 
 TEST_CASE(
-    "run: the printed scenario repeats the run, and so does scenario.toml of the results folder") {
+    "run: the same run is given by the output of --print-scenario and by the saved scenario.toml") {
     const TemporaryFolder folder;
     const std::string file = folder.write("s.toml", relay), out = folder.path("out");
     const auto fingerprint = [&](const std::string& scenario) {
@@ -365,7 +365,7 @@ TEST_CASE("link --json prints the budget of a link and the walls that the link c
     CHECK(json_of(folder, clear)["at_s"] == 6.0);
 }
 
-TEST_CASE("link prints why the link is down, and the loss of each wall") {
+TEST_CASE("link --json prints the loss of each wall, and for a link that is down, the reason") {
     const TemporaryFolder folder;
     const png_byte w = 255;
     folder.write(
@@ -408,7 +408,8 @@ radio = { sensitivity = "0 dBm" }
           "the received power is below the receiver's sensitivity");
 }
 
-TEST_CASE("models --json lists all models, also of shadowing and fading, with their parameters") {
+TEST_CASE(
+    "models --json lists the models, also those of shadowing and fading, with their parameters") {
     const TemporaryFolder folder;
     const Json listed = json_of(folder, {"models"});
     Json models = listed["models"];
@@ -425,7 +426,8 @@ TEST_CASE("models --json lists all models, also of shadowing and fading, with th
     }
 }
 
-TEST_CASE("models NAME prints one model, and for an unknown name suggests a known one") {
+TEST_CASE(
+    "the command `models NAME` prints one model; for an unknown name it suggests a known name") {
     const TemporaryFolder folder;
     const Json listed = json_of(folder, {"models", "friis"});
     REQUIRE(listed["models"].size() == 1);
@@ -435,14 +437,14 @@ TEST_CASE("models NAME prints one model, and for an unknown name suggests a know
     CHECK(wrong.err.find("did you mean \"friis\"?") != std::string::npos);
 }
 
-TEST_CASE("version and --version print the version") {
+TEST_CASE("the command `version` and the option --version print the version of rovernet") {
     const TemporaryFolder folder;
     const std::string version = json_of(folder, {"version"})["version"];
     CHECK(command(folder, {"--version"}).out == version + "\n");
     CHECK(command(folder, {"version"}).out.starts_with("rovernet " + version + "\n"));
 }
 
-TEST_CASE("the command `version` lists the models that each table of a scenario may name") {
+TEST_CASE("the command `version` lists the models that can be chosen in each table of a scenario") {
     const TemporaryFolder folder;
     const std::string file = folder.write("s.toml", relay);
     const Json models = json_of(folder, {"version"})["models"];
@@ -504,7 +506,7 @@ TEST_CASE("a run that needs more events than allowed exits with code 1 and write
     CHECK(names_in(folder.path("out")).empty());
 }
 
-TEST_CASE("message storm: the run fails, the error explains the storm, and older results stay") {
+TEST_CASE("message storm: the run fails, the error says what to change, and older results stay") {
     const TemporaryFolder folder;
     const std::string out = folder.path("out");
     const std::string calm = folder.write("s.toml", R"([scenario]
@@ -568,7 +570,7 @@ TEST_CASE("a run whose results cannot be written exits with 1, and the message n
     CHECK(ended.err.find(file + "/out") != std::string::npos);
 }
 
-TEST_CASE("trace diff: a part of a trace differs from the trace; a converted trace does not") {
+TEST_CASE("trace diff: a trace differs from a part cut out of it, but not from a converted copy") {
     const TemporaryFolder folder;
     const std::string out = folder.path("out"), trace = out + "/trace.tr";
     json_of(folder, {"run", folder.write("s.toml", relay), "--out", out, "--set", "trace.ns2=old",

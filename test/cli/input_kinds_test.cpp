@@ -164,8 +164,9 @@ TEST_CASE(
 TEST_CASE("sweep --merge: a file that is not a store is refused, and no file is changed") {
     const Inputs in;
     const std::string notes = in.path("notes.txt"), store = in.path("s.db");
-    check_told(in.run({"sweep", in.path("one.toml"), "--store", store, "--merge", notes}),
-               notes + ": this file is not a store of a study; expected the store of a shard");
+    check_told(
+        in.run({"sweep", in.path("one.toml"), "--store", store, "--merge", notes}),
+        notes + ": this file is not a store of a study; expected a store that sweep --shard wrote");
     CHECK_FALSE(std::filesystem::exists(store));
     CHECK(content(notes) == "no store\n");
 }

@@ -78,7 +78,8 @@ TEST_CASE("input: an endless file is refused without reading all of it") {
         contains(ended.err, "/dev/zero: cannot read the file: it is a device, not a regular file"));
 }
 
-TEST_CASE("input: for a file of the wrong kind the error states its kind and the right command") {
+TEST_CASE(
+    "input: for a file of the wrong kind, the error names the file's kind and the right command") {
     const TemporaryFolder folder;
     const auto said = [&](const std::string& name, const std::string& text) {
         const Ended ended = command(folder, {"run", folder.write(name, text)});
@@ -136,7 +137,7 @@ TEST_CASE("input: the error for an impossible number in an option states what is
     CHECK(memory.exit == 0);
 }
 
-TEST_CASE("input: compare prints the names of the robots that have their own propagation model") {
+TEST_CASE("input: the command `compare` names the robots that have their own propagation model") {
     const TemporaryFolder folder;
     const std::string own =
         "[[robot]]\nname = \"C\"\nat = [\"5 m\", \"0 m\"]\npropagation = { model = \"two_ray\" }\n";

@@ -48,7 +48,8 @@ TEST_CASE("output: a write error is reported, and the exit code is 1") {
     }
 }
 
-TEST_CASE("output: a reader that closes the pipe early ends the command without an error message") {
+TEST_CASE(
+    "output: if the reader of a pipe closes it early, the command ends without an error message") {
     const TemporaryFolder folder;
     const std::string file = crowd(folder);
     for (const std::string& arguments : {"where --at 0 " + file, "where --json --at 0 " + file,

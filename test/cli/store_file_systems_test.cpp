@@ -146,7 +146,8 @@ TEST_CASE("store: on any file system, while one sweep writes a store, a second s
 }
 
 TEST_CASE(
-    "store: on any file system a killed sweep loses no run; the same command continues the sweep") {
+    "store: on any file system, a killed sweep keeps its finished runs, and the same command "
+    "continues the sweep") {
     const Place undisturbed;
     REQUIRE(Place::run(undisturbed.sweep("nothing", "20 s")).exit == 0);
     for (const Kind& kind : kinds) {

@@ -400,7 +400,7 @@ const std::vector<Mistake> mistakes = {
     {study("vary.a = { from = \"1 m\", to = \"9 km\", step = \"1 m\" }"), "5:10", {"units"}},
     {study("vary.a = { from = \"x\", to = 2, step = 1 }"), "5:19", {"a quantity"}},
     {study("vary.a = { from = 1, to = 2, stop = 1 }"), "5:30", {"did you mean \"step\"?"}},
-    {study("vary.a = [1]\nzip = [[\"a\", \"b\"]]"), "6:8", {"\"b\" is not a key of vary"}},
+    {study("vary.a = [1]\nzip = [[\"a\", \"b\"]]"), "6:8", {"\"b\" is not a key of \"vary\""}},
     {study("vary.a = [1]\nvary.b = [1, 2]\nzip = [[\"a\", \"b\"]]"), "7:8", {"1 values", "2"}},
     {study("vary.a = [1]\nzip = [[\"a\"], [\"a\"]]"), "6:15", {"listed twice"}},
     {study("vary.abc = [1]\nexclude = [{ abd = 1 }]"), "6:14", {"did you mean \"abc\"?"}},
@@ -491,7 +491,7 @@ TEST_CASE("bad input: every mistake is reported with line, column and a helpful 
 }
 
 TEST_CASE(
-    "bad input: the JSON schema finds every mistake that is visible without other keys and files") {
+    "bad input: the JSON schema finds every mistake that can be seen in one key and its value") {
     const Table schema = scenario_schema();
     const TemporaryFolder folder;
     write_maps(folder);
@@ -539,7 +539,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("bad input: a scenario file that is missing, a directory or empty exits with 3") {
+TEST_CASE("bad input: if the scenario file is missing, a directory or empty, the exit code is 3") {
     const TemporaryFolder folder;
     folder.write("empty.toml", "");
     for (const char* file : {"none.toml", ".", "empty.toml"}) {
@@ -551,7 +551,7 @@ TEST_CASE("bad input: a scenario file that is missing, a directory or empty exit
     }
 }
 
-TEST_CASE("bad input: mistakes in options exit with 2 and quote the option") {
+TEST_CASE("bad input: a mistake in an option gives exit code 2, and the error quotes the option") {
     const TemporaryFolder folder;
     folder.write("s.toml", robot_a);
     for (const char* option :
@@ -615,7 +615,8 @@ TEST_CASE("bad input: a typing error on the command line gets a suggestion") {
     }
 }
 
-TEST_CASE("bad input: a scenario with any typing error is read, or refused with a message") {
+TEST_CASE(
+    "bad input: a scenario with random typing errors is either read, or refused with a message") {
     const std::string valid =
         "[scenario]\nname = \"all\"\nduration = \"12 s\"\n[radio]\npower = \"21 dBm\"\n"
         "[propagation]\nmodel = \"itu_indoor\"\ncoefficient = 28.0\nsigma = \"6 dB\"\n" +

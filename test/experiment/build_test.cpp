@@ -117,8 +117,7 @@ struct Counting {
 
 }  // namespace
 
-TEST_CASE(
-    "build: a routing protocol of the user's program routes all messages, except if hops = 1") {
+TEST_CASE("build: a routing protocol of the user routes all messages, except those with hops = 1") {
     const std::string two =
         "[[robot]]\nname = \"A\"\nat = [\"0 m\", \"0 m\"]\n"
         "on_receive = { payload = \"ask\", send = \"answer\", to = \"sender\" }\n"

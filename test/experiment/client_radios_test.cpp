@@ -47,7 +47,8 @@ TEST_CASE(
     CHECK_FALSE(heard[0].is_for_everyone);
 }
 
-TEST_CASE("client radios: a client gets simultaneous messages in the order of the receivers") {
+TEST_CASE(
+    "client radios: a client gets simultaneous messages in the order of the receiving robots") {
     Three robots;
     ClientRadios radios(robots.net);
     radios.join(1, {robots.b, robots.c}, true);
@@ -61,8 +62,7 @@ TEST_CASE("client radios: a client gets simultaneous messages in the order of th
     CHECK(heard[1].at == robots.c);
 }
 
-TEST_CASE(
-    "client radios: a robot that is off sends no message, and the refused message uses up no uid") {
+TEST_CASE("client radios: if a robot is off, it cannot send, and no message number is used up") {
     Three robots;
     ClientRadios radios(robots.net);
     radios.join(1, {robots.a, robots.b}, true);

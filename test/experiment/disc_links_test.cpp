@@ -63,8 +63,8 @@ const std::string disc = "model = \"disc\"\nrange = \"100 m\"\n";
 }  // namespace
 
 TEST_CASE(
-    "model `disc`: a link report has distance and range; a link exactly as long as the range is "
-    "up") {
+    "model `disc`: a link report has distance and range; if the distance equals the range, the "
+    "link is up") {
     const Scenario scenario = line(disc);
     const LinkReport far = report_link(scenario, "A", "B", start_of_run);
     CHECK_FALSE(far.up);

@@ -99,7 +99,8 @@ TEST_CASE(
     CHECK_THROWS_AS(loaded(folder, three + flow + "\"x,y\"\n"), InputError);
 }
 
-TEST_CASE("random sources: all robots are chosen equally often, whatever their order in the file") {
+TEST_CASE(
+    "random sources: all robots are chosen as sender equally often, in any order of the file") {
     const std::string traffic =
         "[[traffic]]\nfrom = \"random\"\npayload = \"F\"\nevery = \"10 ms\"\ncount = 300\n"
         "[metrics]\nrobots = true\n[scenario]\nduration = \"4 s\"\n";

@@ -126,9 +126,7 @@ const AccessModel accesses[] = {NoAccess{}, Aloha{}, asking};
 
 }  // namespace
 
-TEST_CASE(
-    "MAC trace: the bytes do not depend on whether receptions are processed together or one by "
-    "one") {
+TEST_CASE("MAC trace: the trace is the same if receptions are processed together or one by one") {
     for (const ReceptionModel& reception : receptions) {
         for (const AccessModel& access : accesses) {
             for (const Db shadowing : {Db{0}, Db{4}}) {
@@ -147,8 +145,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "MAC trace: MAC lines change no other line, and metrics read from the trace equal those of the "
-    "run") {
+    "MAC trace: with MAC lines all other lines stay the same, and metrics read from the trace "
+    "equal those of the run") {
     for (const Ns2Format format : {Ns2Format::old_format, Ns2Format::new_format}) {
         for (const AccessModel& access : accesses) {
             CAPTURE(access.name());

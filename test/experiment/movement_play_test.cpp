@@ -149,7 +149,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("movement file: a robot that a program drives stays when the file removes the robot") {
+TEST_CASE("movement file: if a program drives a robot, the file can no longer remove this robot") {
     const Format bus{"m.xml", "bus",
                      "<fcd-export><timestep time=\"1\"><vehicle id=\"bus\" x=\"5\" y=\"0\"/>"
                      "</timestep><timestep time=\"4\"><vehicle id=\"bus\" x=\"8\" y=\"0\"/>"

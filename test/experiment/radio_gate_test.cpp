@@ -114,7 +114,7 @@ TEST_CASE("success rate: adding a robot does not change which frames are receive
     CHECK(through(0.5, false) == through(0.5, true));
 }
 
-TEST_CASE("addresses: generated addresses skip the addresses that are given") {
+TEST_CASE("addresses: IP addresses that are generated differ from those given by the user") {
     Network net;
     net.add({.name = "a", .at = {}});
     net.add({.name = "b", .at = {}, .radio = {.labels = {.ip = "10.0.0.1"}}});

@@ -61,7 +61,8 @@ std::string from_size(const std::string& line) {
 }  // namespace
 
 // The lines of ns-2.35 for its DSR are "r RTR cbr 108" and "r AGT cbr 64".
-TEST_CASE("ns-2 trace of DSR: the destination has a line of the router and a line of the agent") {
+TEST_CASE(
+    "ns-2 trace of DSR: the destination has one line of the router (RTR), one of the agent (AGT)") {
     const std::string text = trace_of("protocol = \"dsr\"\n", 4);
     const auto router = lines_with(text, "^r .* _3_ RTR .* cbr "),
                agent = lines_with(text, "^r .* _3_ AGT ");
@@ -72,8 +73,8 @@ TEST_CASE("ns-2 trace of DSR: the destination has a line of the router and a lin
 }
 
 TEST_CASE(
-    "ns-2 trace of AODV: the destination has one line, whose size includes the IP header, as in "
-    "ns-2") {
+    "ns-2 trace of AODV: at the destination only the agent (AGT) has a line, and the size includes "
+    "the IP header") {
     const std::string text = trace_of("protocol = \"aodv\"\n", 4);
     CHECK(lines_with(text, "^r .* _3_ RTR .* cbr ").empty());
     const auto agent = lines_with(text, "^r .* _3_ AGT ");
@@ -122,7 +123,8 @@ TEST_CASE(
     for (const std::string& line : arp) CHECK(line.back() == ']');
 }
 
-TEST_CASE("ns-2 trace: a control packet that never went on air is dropped with its own TTL") {
+TEST_CASE(
+    "ns-2 trace: if a control packet never went on air, its drop line has the TTL of this packet") {
     std::string text =
         "[scenario]\nduration = \"1 s\"\n[access]\nmodel = \"csma\"\n"
         "[trace]\nns2 = \"old\"\nrecord = true\n"

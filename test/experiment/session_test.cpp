@@ -282,7 +282,7 @@ at = ["300 m", "0 m"]
     CHECK(last[0].payload == "heard again");
 }
 
-TEST_CASE("session: a message from a robot to itself is refused, and listeners do not get it") {
+TEST_CASE("session: a message from a robot to itself is refused, and is not reported as an input") {
     std::size_t inputs = 0;
     fingerprint_of([&](Session& s) {
         s.on_input([&](const Input&) { ++inputs; });
@@ -296,7 +296,7 @@ TEST_CASE("session: a message from a robot to itself is refused, and listeners d
     });
 }
 
-TEST_CASE("session: listeners get every command, also the stop command made when a client leaves") {
+TEST_CASE("session: every command is reported as an input, also the stop when a client leaves") {
     const auto driven = [](Session& s, std::vector<Input>& inputs) {
         s.on_input([&](const Input& input) { inputs.push_back(input); });
         const ClientId client = s.attach({NodeId{1}, NodeId{2}}, "pilot");

@@ -52,7 +52,7 @@ bool has(const std::string& text, const char* words) { return text.find(words) !
 }  // namespace
 
 TEST_CASE(
-    "unknown cells: a robot in or near an unknown cell is refused with the cell's grey level") {
+    "unknown cells: for a robot in or near an unknown cell, the error has the cell's grey level") {
     const Map map;
     const std::string in = map.error("at = [\"3.5 m\", \"1 m\"]\n");
     CHECK(has(in, "robot \"A\" at (3.5, 1) m is in an unknown cell of the map"));

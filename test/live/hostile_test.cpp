@@ -152,7 +152,7 @@ TEST_CASE("hostile: at the connection limit, a new client displaces the oldest s
     CHECK(controlled.wait().exit == 0);
 }
 
-TEST_CASE("hostile: no request of a web page drives a robot, on any listener") {
+TEST_CASE("hostile: on every listener, HTTP requests of a web page cannot drive a robot") {
     const Served served;
     const Live controlled(
         {"--listen-json", "127.0.0.1:0", "--unix", "SOCKET", "--listen-web", "127.0.0.1:0"},
@@ -190,7 +190,7 @@ TEST_CASE("hostile: no request of a web page drives a robot, on any listener") {
     CHECK(controlled.replay().out.starts_with("identical: 0 inputs"));
 }
 
-TEST_CASE("hostile: a client whose first line is no JSON object is disconnected") {
+TEST_CASE("hostile: a client whose first line is not a JSON object is disconnected") {
     const Live live({"--listen-json", "127.0.0.1:0"}, long_live_row());
     const int port = live.port();
     const std::string rest = hello("\"A\"") + "\n";

@@ -118,8 +118,7 @@ TEST_CASE("lateness: while a client pauses the time, the run is not late") {
 }
 
 TEST_CASE(
-    "lateness: a stop of the process makes the run late only up to the time at which a client "
-    "pauses it") {
+    "lateness: if the process is stopped, only the time before a client's pause counts as late") {
     const LiveResult result = run({.limit = start_of_run + 10min});
     CHECK(result.lateness->most > 9min);
     CHECK(result.lateness->most < 11min);
@@ -137,7 +136,7 @@ TEST_CASE("lateness: messages that arrive while the run writes output slowly cou
     CHECK_FALSE(result.fault.empty());
 }
 
-TEST_CASE("lateness: a poll counts in the share of late delays only if it is late") {
+TEST_CASE("lateness: for the share of late delays, a late poll counts, a poll on time does not") {
     Lateness lateness;
     lateness.add_look(999us);
     CHECK(lateness.most == 999us);

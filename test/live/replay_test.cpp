@@ -119,7 +119,8 @@ TEST_CASE("replay: a log of the first format, with every command, still gives th
     CHECK(replay.inputs == 11);
 }
 
-TEST_CASE("replay: every command is logged with the keys of the protocol, and is reproduced") {
+TEST_CASE(
+    "replay: every command is logged with the keys of the lock-step protocol, and is reproduced") {
     const TemporaryFolder folder;
     SteppedRun run(three_in_a_row(), {.folder = folder.path("run")});
     const std::vector<std::pair<std::size_t, RobotCommand>> commands = {

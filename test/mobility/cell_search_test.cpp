@@ -179,7 +179,7 @@ TEST_CASE("cell search: of equally long paths, one close to the straight line is
     }
 }
 
-TEST_CASE("cell search: a path does not depend on earlier calls") {
+TEST_CASE("cell search: a path does not depend on earlier searches") {
     test::Draw draw(45);
     Ground ground(test::random_map(draw, 60, 60, 15), 0_m);
     for (int i = 0; i < 50; ++i) {

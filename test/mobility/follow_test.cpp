@@ -31,7 +31,7 @@ double gap(Network& net, Duration t) {
 
 }  // namespace
 
-TEST_CASE("follow: a follower reaches its distance from a resting leader, and stays there") {
+TEST_CASE("follow: a follower reaches the given distance to a resting leader, and stays there") {
     Network net;
     net.add({.name = "A", .at = {100, 0}});
     net.add({.name = "B", .at = {0, 0}, .move = Follow{.distance = {3}, .speed = {2}}});
@@ -42,8 +42,8 @@ TEST_CASE("follow: a follower reaches its distance from a resting leader, and st
 }
 
 TEST_CASE(
-    "follow: behind a leader of constant speed, the gap is the distance plus the leader's path in "
-    "one interval") {
+    "follow: if the leader's speed v is constant, the gap is the distance to keep plus v * "
+    "interval") {
     Network net;
     net.add({.name = "A", .at = {10, 0}, .move = ToGoal{.to = {1e4, 0}, .speed = {1.5}}});
     net.add(
@@ -78,7 +78,7 @@ TEST_CASE("follow: a follower knows the random start position of its leader from
     CHECK(std::abs(distance(net.position({0}), {0, 0}) - 100) < tolerance);
 }
 
-TEST_CASE("follow: the distance is measured along the path around the walls") {
+TEST_CASE("follow: the distance to the leader is measured along the path around the walls") {
     const auto map = std::make_shared<Scene>(drawn_map({
         ".......",
         "...#...",
@@ -113,7 +113,8 @@ TEST_CASE("follow: if there is no path to the leader, the follower stands and tr
 }
 
 TEST_CASE(
-    "follow: a follower stays at its own height, and a robot told to follow itself stands still") {
+    "follow: a follower stays at its own height; a robot that is told to follow itself stands "
+    "still") {
     Network net;
     net.add({.name = "A", .at = {10, 0, 7}});
     net.add({.name = "B", .at = {0, 0, 1}, .move = Follow{}});

@@ -75,8 +75,7 @@ TEST_CASE("free space: a robot fits into a corridor of exactly its own width, at
 }
 
 TEST_CASE(
-    "free space: free cells connected by steps form a part; parts are numbered in the order of "
-    "cells") {
+    "free space: free cells connected by steps form a region; regions are numbered in cell order") {
     test::Draw draw(23);
     for (int trial = 0; trial < 30; ++trial) {
         const int columns = 1 + draw.below(40), rows = 1 + draw.below(30);
@@ -105,7 +104,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "free space: if robots may leave the map, cells are added around it, the outermost of them "
+    "free space: if robots may leave the map, cells are added around it, and the outermost are "
     "free") {
     for (const double radius : {0.0, 0.2, 0.5, 3.3}) {
         OccupancyGrid grid = test::drawn_map({"#..#", ".#..", "##.#"}, 0.5);

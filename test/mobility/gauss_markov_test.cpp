@@ -67,7 +67,8 @@ double standard_error(double sigma, double a, double n) {
 }  // namespace
 
 TEST_CASE(
-    "gauss_markov: speed and direction are normally distributed, with autocorrelation memory^lag") {
+    "gauss_markov: speed and direction are normally distributed; their autocorrelation is "
+    "`memory`^lag") {
     constexpr int legs = 40'000;
     for (const double a : {0.0, 0.5, 0.9}) {
         CAPTURE(a);
@@ -93,7 +94,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("gauss_markov: with memory 1, speed and direction never change") {
+TEST_CASE("gauss_markov: with `memory` = 1, speed and direction never change") {
     const Course course({.memory = 1}, 100);
     CHECK(sample(course.speeds).deviation() < 1e-6);
     CHECK(sample(course.directions).deviation() < 1e-6);
@@ -114,8 +115,7 @@ TEST_CASE("gauss_markov: the first direction is random, unless it is given") {
     CHECK(y.errors_off(0, std::sqrt(0.5)) < most_errors);
 }
 
-TEST_CASE(
-    "gauss_markov: a robot never leaves its area, visits all of it and never stops for good") {
+TEST_CASE("gauss_markov: a robot never leaves its area, visits all of it and never gets stuck") {
     const Scene field;
     Planners planners(field);
     for (const double mean : {0.0, 1.0, 50.0}) {

@@ -77,7 +77,7 @@ TEST_CASE("group: members know the random start position of their leader") {
     CHECK(distance(net.position({0}), net.position({1})) < 1 + tolerance);
 }
 
-TEST_CASE("group: a member whose top speed is too low arrives after the end of the interval") {
+TEST_CASE("group: a member whose top speed is too low for the interval arrives later") {
     Network net;
     net.add({.name = "A", .at = {60, 0}});
     net.add({.name = "B", .at = {0, 0}, .move = Group{.radius = {2}}, .top_speed = {1}});
@@ -87,7 +87,8 @@ TEST_CASE("group: a member whose top speed is too low arrives after the end of t
     CHECK(distance(net.position({1}), {60, 0}) < 2 + tolerance);
 }
 
-TEST_CASE("group: for a member that joins late, intervals still count from the start of the run") {
+TEST_CASE(
+    "group: also for a member that joins late, intervals are counted from the start of the run") {
     Network net;
     net.add({.name = "A", .at = {60, 0}});
     const NodeId late = net.add({.name = "B", .at = {0, 0}});
@@ -97,7 +98,7 @@ TEST_CASE("group: for a member that joins late, intervals still count from the s
     CHECK(distance(net.position(late), {60, 0}) < 2 + tolerance);
 }
 
-TEST_CASE("group: members go around walls, and only to reachable positions") {
+TEST_CASE("group: members go around walls, and choose only reachable positions") {
     const auto map = std::make_shared<Scene>(test::drawn_map({
         ".........",
         "....#....",

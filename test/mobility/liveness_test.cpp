@@ -155,7 +155,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "liveness: arcs driven backward or to the right also stop at walls, corners and map borders") {
+    "liveness: on arcs driven backward or to the right, robots also stop at walls, corners and "
+    "borders") {
     const Scene scene(test::drawn_map({"........", "...##...", "...##...", "........"}));
     Planners planners(scene);
     const auto legs_at = [&](Vec3 at, double heading, double v, double w) {
@@ -184,8 +185,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "liveness: follow_wall and wander make at most 11 straight legs a second, at any sensor "
-    "range") {
+    "liveness: the models `follow_wall` and `wander` make at most 11 straight legs a second, at "
+    "any sensor range") {
     const Scene scene(rooms(0.5, 0.0));
     Planners planners(scene);
     test::Draw draw(11);

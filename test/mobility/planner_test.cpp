@@ -115,8 +115,8 @@ TEST_CASE("planner: there is no path into a wall, off the map or into a closed r
 }
 
 TEST_CASE(
-    "planner: if walls stand on open ground, a path may start, lead and end outside the walls' "
-    "grid") {
+    "planner: if walls stand on open ground, a path may start, lead and end outside the grid of "
+    "the walls") {
     // A pillar of one cell, and a corridor that is open on the right only.
     for (const auto& rows :
          {std::vector<std::string>{"#"}, std::vector<std::string>{"######", "......", "######"}}) {
@@ -148,7 +148,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("planner: from open ground there is a path into a room exactly if it has a door") {
+TEST_CASE("planner: from open ground there is a path into a room exactly if the room has a door") {
     for (const bool has_door : {false, true}) {
         OccupancyGrid grid =
             drawn_map({"#####", "#...#", has_door ? "#...." : "#...#", "#...#", "#####"});
@@ -244,7 +244,7 @@ TEST_CASE(
     CHECK(longest < 1.01);
 }
 
-TEST_CASE("planner: in a narrow corridor, a path reaches ends that lie between cell centres") {
+TEST_CASE("planner: a path may start in a narrow corridor in which no cell centre is free") {
     // The corridor is 2 m wide and its middle is a grid line: no cell centre in it is free.
     const Scene scene(drawn_map({
         "......",

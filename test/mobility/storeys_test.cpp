@@ -120,7 +120,8 @@ TEST_CASE("storeys: no path leads over stairs into a wall or off the map") {
 }
 
 TEST_CASE(
-    "storeys: a timed path takes the sloped (3D) length of stairs, not their length on the map") {
+    "storeys: for a timed path, the sloped (3D) length of stairs counts, not their length on the "
+    "map") {
     const auto scene = building();
     Network net({.scene = scene});
     const NodeId robot = net.add({.name = "R",
@@ -131,7 +132,8 @@ TEST_CASE(
     CHECK(near(net.position(robot), {1 + 1.6, 1, 1.2}));
 }
 
-TEST_CASE("storeys: the range finder of a movement model sees the walls of the robot's storey") {
+TEST_CASE(
+    "storeys: the range finder of a movement model sees only the walls of the robot's storey") {
     const auto scene = building();
     Planners planners(*scene);
     const Legs none;

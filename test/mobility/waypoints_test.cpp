@@ -80,7 +80,7 @@ TEST_CASE("waypoints: the time for a path is its length divided by the speed") {
     CHECK(walk.diary->arrivals.size() == 1);
 }
 
-TEST_CASE("waypoints: with times, a robot is at each position at the given time") {
+TEST_CASE("waypoints: if times are given, a robot is at each position at the given time") {
     const std::vector<TimedPoint> table{
         {3s, {7, 0, 0}}, {4s, {7, 1, 0}}, {7'777'777'777ns, {-3, 2, 1}}};
     Walk walk(Waypoints{.timed = table});
@@ -118,8 +118,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "waypoints: a straight leg starts where the last one ended; start, velocity and duration give "
-    "its end") {
+    "waypoints: legs join without gaps, and each leg's end is its start plus velocity times "
+    "duration") {
     test::Draw draw(17);
     for (int run = 0; run < 30; ++run) {
         Waypoints way{.speed = {draw.uniform(0.1, 30)}};
@@ -186,7 +186,8 @@ TEST_CASE("waypoints: also on a detour around a wall, given times are met to the
     CHECK(walk.diary->arrivals[0].time == start_of_run + 40s);
 }
 
-TEST_CASE("waypoints: without a path to the goal the robot reports this and stays") {
+TEST_CASE(
+    "waypoints: if there is no path to the goal, the robot reports this and stays where it is") {
     const auto scene = scene_of({".....#.....", ".....#.....", ".....#....."});
     Walk walk(ToGoal{.to = {9.5, 0.5, 0}}, {1.5, 0.5}, scene);
     CHECK(walk.at(1min) == Vec3{1.5, 0.5});

@@ -90,8 +90,7 @@ double gain_at(const Radio& radio, double angle, double heading = 0) {
 
 }  // namespace
 
-TEST_CASE(
-    "antennas: the table of a pattern is interpolated linearly in dB, all around the circle") {
+TEST_CASE("antennas: the gain table is interpolated linearly in dB, all around the circle") {
     const Radio radio{.antenna = AntennaShape::table,
                       .antenna_direction = Radians{30 * degree},
                       .antenna_pattern = {{{0, 0}, {90, -9}, {180, -20}, {270, -4}}}};
@@ -109,7 +108,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "antennas: a sector antenna loses 3 dB at half its beamwidth, and front_to_back dB behind") {
+    "antennas: a sector antenna loses 3 dB at half its beamwidth, and `front_to_back` dB behind") {
     for (const double width : {20.0, 60.0, 120.0, 300.0}) {
         const Radio radio{.antenna = AntennaShape::cosine,
                           .antenna_beamwidth = Radians{width * degree},
@@ -143,7 +142,8 @@ TEST_CASE("antennas: the poses of robots are used only if an antenna is directio
     CHECK(near(LinkGain::of(plain, sector, poses).receiver.value, 1 - 20, pattern_tolerance));
 }
 
-TEST_CASE("antennas: a pattern table without points, above 0 dB or out of order is refused") {
+TEST_CASE(
+    "antennas: a gain table is refused if it is empty, exceeds 0 dB or has unordered angles") {
     const auto check = [](std::vector<PatternPoint> points) {
         check_antenna({.antenna = AntennaShape::table, .antenna_pattern = std::move(points)});
     };

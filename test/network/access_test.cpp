@@ -92,7 +92,7 @@ TEST_CASE("aloha: the throughput of slotted aloha is S = G exp(-G)") {
     }
 }
 
-TEST_CASE("csma: stations that begin together collide, unless each draws a backoff first") {
+TEST_CASE("csma: stations that start to send together collide, unless each draws a backoff first") {
     // Two stations send at one instant, 400 times. With a backoff of 0 to CW slots before every
     // frame they collide where both draw the same: once in CW + 1 times.
     const auto delivered = [](bool immediate, int window) {
@@ -301,8 +301,8 @@ TEST_CASE("csma: receivers that forward at the same time collide; jitter prevent
 }
 
 TEST_CASE(
-    "csma: saturated broadcasts need no routing protocol, and have the theoretical throughput over "
-    "one hop") {
+    "csma: saturated one-hop broadcasts need no routing protocol, and have the theoretical "
+    "throughput") {
     const BroadcastCell cell;
     for (const int n : {2, 10}) {
         Room room(n, cell.csma(), {.rate = cell.rate});
@@ -319,7 +319,7 @@ TEST_CASE(
 
 // A saturated sender has two messages in its queue, whatever else it sends.
 TEST_CASE(
-    "csma: saturated traffic leaves room for other messages, and goes on when its sender is on "
+    "csma: saturated traffic leaves room for other messages, and resumes when its sender is on "
     "again") {
     Room cell(3, Csma{.queue = 10});
     std::map<std::string, int> got, late;

@@ -336,7 +336,8 @@ struct OpenField {
 
 }  // namespace
 
-TEST_CASE("air: if a robot jumps, frames on air still reach it as at its old position") {
+TEST_CASE(
+    "air: if a robot jumps, frames already on air reach it as if it were at its old position") {
     for (const bool jumps : {false, true}) {
         OpenField space;
         const NodeId there = space.add(0), here = space.add(1e6), robot = space.add(1);
@@ -352,7 +353,9 @@ TEST_CASE("air: if a robot jumps, frames on air still reach it as at its old pos
     }
 }
 
-TEST_CASE("air: a frame from far away that has ended at its sender interferes where it arrives") {
+TEST_CASE(
+    "air: a frame from far away interferes when it arrives, even if its sender has already "
+    "finished") {
     for (const bool later : {false, true}) {
         OpenField space;
         const NodeId robot = space.add(0), near = space.add(30);
@@ -368,8 +371,8 @@ TEST_CASE("air: a frame from far away that has ended at its sender interferes wh
 }
 
 TEST_CASE(
-    "air: with the reception model `collision`, an ignored frame affects no later frame, as in "
-    "ns-2") {
+    "air: with the reception model `collision`, an ignored frame does not affect later frames, as "
+    "in ns-2") {
     // ns-2.35: a strong frame, a weak one under it that lasts longer, and one while that is on air.
     for (const bool strong : {true, false}) {
         Network net({.propagation = LogDistance{.exponent = 4, .sigma = Db{0}},

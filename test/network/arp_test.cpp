@@ -118,7 +118,7 @@ TEST_CASE("arp: a neighbour that does not answer gets three requests") {
 }
 
 TEST_CASE(
-    "arp: the fourth frame to a silent neighbour is dropped, and ends the search for its address") {
+    "arp: the fourth frame to a silent neighbour is dropped, and ends the search for the address") {
     Row row(2);
     row.net.switch_off({1});
     for (int i = 0; i < 4; ++i) {
@@ -142,7 +142,7 @@ TEST_CASE("arp: an address is forgotten after arp_timeout") {
     CHECK_THROWS_AS(Row(2, {.arp = true, .arp_timeout = Duration{0}}), std::invalid_argument);
 }
 
-TEST_CASE("arp: a robot that is switched off loses the waiting frame") {
+TEST_CASE("arp: if a robot is switched off, its frame that waits for an address is lost") {
     Row row(2);
     row.net.switch_off({1});
     row.net.run_for(1ms);

@@ -286,7 +286,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "collision scenes: in a chain of overlapping frames, the first decides the fate of the last") {
+    "collision scenes: in a chain of overlapping frames, the first frame decides the fate of the "
+    "last") {
     // Each frame begins during the one before, and is weaker by the capture ratio. So each second
     // frame is ignored, and the next one finds the receiver free.
     std::vector<Sent> row;

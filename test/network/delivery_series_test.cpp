@@ -14,8 +14,8 @@ using namespace rovernet;
 using namespace std::chrono_literals;
 
 TEST_CASE(
-    "delivery series: the series has the share of robots that each message reached, in order of "
-    "sending") {
+    "delivery series: for each message in order of sending, the series has the share of robots "
+    "reached") {
     Network net({.propagation = Disc{.range = Meters{10}}});
     net.route(Flood{.ttl = 5});
     const auto series = std::make_shared<DeliverySeries>();

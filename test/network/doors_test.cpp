@@ -198,7 +198,8 @@ TEST_CASE("doors: a closed door has no effect on models that ignore walls") {
 }
 
 TEST_CASE(
-    "doors: also with shadowing, with fading and in reference mode, only a closed door is a wall") {
+    "doors: also with shadowing, with fading and in reference mode, only a closed door acts as a "
+    "wall") {
     CHECK(compare([](NetworkSettings& settings) {
               settings.propagation = MultiWall{};
               settings.shadowing = {.model = ShadowingModel::link};
@@ -213,7 +214,8 @@ TEST_CASE(
           }) > 20);
 }
 
-TEST_CASE("doors: the fast and the reference mode agree on frames during which a door changes") {
+TEST_CASE(
+    "doors: the fast and the reference mode agree on frames during which a door opens or closes") {
     for (const ReceptionModel& reception : {ReceptionModel(Collision{.capture_ratio = 3_dB}),
                                             ReceptionModel(Sinr{.interference_cut = 20_dB})}) {
         const auto log_of = [&](bool reference) {
@@ -227,7 +229,8 @@ TEST_CASE("doors: the fast and the reference mode agree on frames during which a
     }
 }
 
-TEST_CASE("doors: a frame that is on air when a door closes interferes as through the open door") {
+TEST_CASE(
+    "doors: a frame that is on air when a door closes interferes as if the door were still open") {
     // Robot 3 receives the first frame, through the open door; the second, of which only what the
     // closed door lets through arrives, begins 1 ns after the door closed.
     const auto fates = [](Kind kind, Duration first, Duration second) {

@@ -90,7 +90,7 @@ constexpr double share = 0.03;
 }  // namespace
 
 TEST_CASE(
-    "flows: a near sender and a far, hidden sender have the same throughput as in ns-2 and ns-3") {
+    "flows: the throughput of a near and a far, hidden sender equals that in ns-2 and in ns-3") {
     const Csma as_ns2{.basic_rates = {{{1e6}}}, .header = 34};
     const double collision = near_and_far.frames_per_second(Collision{}, as_ns2);
     CHECK(collision == doctest::Approx(106.3).epsilon(share));  // ns-2

@@ -99,7 +99,9 @@ TEST_CASE(
     CHECK_FALSE(network.watch.next());  // nobody moves
 }
 
-TEST_CASE("link watch: two robots that pass each other are each heard within their own range") {
+TEST_CASE(
+    "link watch: if two robots with different ranges pass each other, each is heard within its own "
+    "range") {
     const Scene field;
     Harness network{&field};
     network.add(Disc{.range = 10_m}, resting({}));
@@ -153,7 +155,8 @@ TEST_CASE("link watch: one call reports all changes that are due, and none that 
 }
 
 TEST_CASE(
-    "link watch: a change at the end of a movement is reported once, even if a movement follows") {
+    "link watch: a change at the end of a movement is reported once, even if a new movement "
+    "follows") {
     const Scene field;
     for (const bool served_first : {false, true}) {
         Harness network{&field};

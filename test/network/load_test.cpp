@@ -154,7 +154,8 @@ TEST_CASE("load: if 30 of 1,000 robots in one place send at once, nobody receive
 }
 
 TEST_CASE(
-    "load: in a flood of 300 robots in one place with sinr and csma, each robot sends one frame") {
+    "load: in a flood of 300 robots in one place with `sinr` and `csma`, each robot sends one "
+    "frame") {
     constexpr int robots = 300;
     Watched crowd(disc(1, Sinr{}, Csma{}), {.ttl = 5});
     crowd.add_crowd(robots);
@@ -193,7 +194,7 @@ TEST_CASE("load: a crowd of robots that keeps sending does not take more and mor
     }
 }
 
-TEST_CASE("load: a flood crosses 100,000 robots on a line, hop by hop") {
+TEST_CASE("load: a flood along a line of 100,000 robots reaches all of them, hop by hop") {
     for (const auto& [robots, ttl] : {std::pair{1000U, 300U}, std::pair{100'000U, 50'000U}}) {
         const std::uint32_t middle = robots / 2;
         Watched line(disc(10), {.ttl = static_cast<int>(ttl), .jitter = Duration{0}});
@@ -300,7 +301,8 @@ TEST_CASE("load: with range 0, robots that pass through each other lose every li
 }
 
 TEST_CASE(
-    "load: with the reception model `threshold`, simultaneous frames arrive in sending order") {
+    "load: with the reception model `threshold`, simultaneous frames arrive in the order of the "
+    "send calls") {
     for (const std::uint32_t first : {0U, 1U}) {
         Watched world(disc(15));
         world.add({0, 20, 10, 10});
@@ -335,7 +337,7 @@ TEST_CASE("load: two frames in the same nanosecond with equal levels are both lo
 }
 
 TEST_CASE(
-    "load: of two frames in the same nanosecond, one stronger by the capture ratio survives") {
+    "load: a frame stronger by the capture ratio survives another frame of the same nanosecond") {
     for (const std::uint32_t stronger : {0U, 1U}) {
         NetworkSettings settings = disc(0, Collision{});
         settings.propagation = LogDistance{.exponent = 2, .sigma = Db{0}};

@@ -233,7 +233,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "doors: with every movement model, robots pass no closed door and do not get stuck for ever") {
+    "doors: with every movement model, robots do not pass closed doors and do not get stuck for "
+    "ever") {
     const std::vector<Duration> closes{500ms, 4s, 9s, 16s}, opens{2s, 7s, 12s};
     Door half = door({1s, 6s, 11s}, {3s, 8s, 14s});
     half.from = {3, 1, 0};

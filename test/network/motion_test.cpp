@@ -100,7 +100,7 @@ TEST_CASE("motion: a robot switched off while it turns continues the turn later"
     CHECK(near(net.position(s), Vec3{0, 5, 0}));
 }
 
-TEST_CASE("motion: on the way to goals, with or without times, no robot exceeds its top speed") {
+TEST_CASE("motion: with or without times for the goals, no robot exceeds its top speed") {
     Network net;
     const NodeId slow = net.add({.name = "slow",
                                  .at = {},
@@ -161,7 +161,7 @@ TEST_CASE("links: the callback for a lost link is called 1 us after the link is 
     CHECK(net.links(rover, net.now())[0].node == base);
 }
 
-TEST_CASE("links: every change is recorded once, in the order of time") {
+TEST_CASE("links: every link change is recorded once, in the order of time") {
     struct Book {
         std::vector<std::pair<double, bool>> changes = {};
         KindMask kinds() const { return kind_links; }

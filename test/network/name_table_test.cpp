@@ -67,7 +67,7 @@ TEST_CASE(
     CHECK(other[0] == "ada");
 }
 
-TEST_CASE("name table: a name may consist of any bytes, or of none") {
+TEST_CASE("name table: a name may be empty, or consist of any bytes") {
     const std::vector<std::string_view> names = {""sv,     "\0"sv, "\0\0"sv,
                                                  "a\0b"sv, "a"sv,  "\xff\xfe"sv};
     NameTable table;

@@ -204,7 +204,7 @@ TEST_CASE(
     CHECK(with_stranger.events > alone.events);
 }
 
-TEST_CASE("network: a run in parts of any size gives the same result as one run") {
+TEST_CASE("network: a run that is executed in parts gives the same result as a run in one piece") {
     const Run whole = Busy(5).run();
     SUBCASE("the run is made one event at a time") {
         Busy pieces(5);
@@ -466,7 +466,7 @@ TEST_CASE("network: a robot that is off sends nothing") {
     CHECK(net.metrics().deliveries == 1);
 }
 
-TEST_CASE("network: a callback on arrival can start the next movement") {
+TEST_CASE("network: a callback that is called when a robot arrives can start its next movement") {
     Network net;
     net.add({.name = {}, .at = {}, .move = ToGoal{.to = {1, 0, 0}, .speed = {1}}});
     int arrivals = 0;
@@ -555,7 +555,8 @@ TEST_CASE("network: two networks in one process do not influence each other") {
     CHECK(b.result() == two);
 }
 
-TEST_CASE("network: robots are found by name; robots without a name are called r and a number") {
+TEST_CASE(
+    "network: robots are found by name; a robot without a name is called r and its number, as r1") {
     Network net;
     net.add({.name = "ada", .at = {}});
     net.add(robot_at(1));

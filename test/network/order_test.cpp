@@ -112,7 +112,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "order: a routing protocol gets each batch of receptions in order, when the last one ends") {
+    "order: a routing protocol gets each batch of receptions in order, when the last reception "
+    "ends") {
     const auto always_in_order = std::make_shared<bool>(true);
     Playground({}, 1).run(WatchedFlood{.always_in_order = always_in_order});
     CHECK(*always_in_order);
@@ -136,7 +137,8 @@ TEST_CASE("order: in reference mode receptions at different times are separate e
 }
 
 TEST_CASE(
-    "order: few and many receivers, spread, in rings or in one place, receive in order of time") {
+    "order: receptions are in order of time for few and many receivers, spread, in rings or in one "
+    "place") {
     test::Draw draw(17);
     for (const bool delayed : {true, false}) {
         for (const int count : {2, 13, 60, 64, 65, 66, 67, 130, 400}) {

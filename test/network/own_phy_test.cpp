@@ -157,7 +157,8 @@ TEST_CASE("user's phy: the coding determines the duration of the preamble") {
 }
 
 TEST_CASE(
-    "user's phy: a phy can reject interference from other codings, with `sinr` and with capture") {
+    "user's phy: a phy can reject interference from other codings, with the models `sinr` and "
+    "`collision`") {
     const auto delivered = [](const ReceptionModel& reception, BitRate second, double other) {
         Network net({.reception = reception, .access = AtOnce{.phy = {.other = other}}});
         for (const double x : {0.0, 10.0, 20.0}) {

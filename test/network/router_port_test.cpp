@@ -328,7 +328,8 @@ TEST_CASE("router port: take_queued returns the frames for one next hop, except 
 }
 
 TEST_CASE(
-    "router port: nodes start in the order of their keys (name hashes), later nodes when added") {
+    "router port: nodes start in the order of their keys (name hashes); a node added later starts "
+    "at once") {
     Row row(NoAccess{}, 5);
     row.net.route(Scripted{.diary = row.diary});
     CHECK(row.diary->lines.empty());

@@ -203,13 +203,15 @@ std::string drops_of_collision(Protocol protocol) {
 }  // namespace
 
 TEST_CASE(
-    "results: if a routed unicast is lost, it has one drop reason, also if the protocol ignores "
+    "results: a lost routed unicast has exactly one drop reason, also if the protocol ignores "
     "results") {
     CHECK(drops_of_collision(Scripted{.script = std::make_shared<Script>()}) == "CBK2 ");
     CHECK(drops_of_collision(Deaf{}) == "COL2 ");
 }
 
-TEST_CASE("results: a frame on air when its sender is switched off is delivered, and not dropped") {
+TEST_CASE(
+    "results: if a sender is switched off while its frame is on air, the frame is still "
+    "delivered") {
     Row row(Csma{});
     for (int i = 0; i < 3; ++i) row.net.send({0}, {1}, "x", {.size = 1000});
     row.net.at(start_of_run + 3ms, [&] { row.net.switch_off({0}); });  // a frame takes 8 ms
@@ -523,7 +525,7 @@ TEST_CASE(
     CHECK(packets == 4);    // s AGT, r RTR, s RTR, r AGT
 }
 
-TEST_CASE("snr: the SNR of a reception is its level over the receiver's noise floor") {
+TEST_CASE("snr: a reception's SNR in dB is its level minus the receiver's noise floor") {
     Network net({.propagation = Friis{}});
     for (const double x : {0.0, 30.0}) {
         net.add({.name = {}, .at = {x, 0, 0}, .radio = {.noise_figure = Db{9}}});

@@ -76,7 +76,7 @@ TEST_CASE(
     CHECK(second->lines.size() == 6);  // two sent, two cut off
 }
 
-TEST_CASE("sinks: records of receptions have received powers only if a sink requests them") {
+TEST_CASE("sinks: records of receptions contain the received power only if a sink requests it") {
     struct Levels {
         KindMask more;
         std::vector<double> levels{};
@@ -109,7 +109,7 @@ TEST_CASE("sinks: records of receptions have received powers only if a sink requ
     }
 }
 
-TEST_CASE("callbacks: a callback that has been ended is not called again, even if it is due") {
+TEST_CASE("callbacks: a cancelled callback is not called again, even if it was already scheduled") {
     Pair pair;
     Network& net = pair.net;
     int heard = 0, ticks = 0, later = 0, arrived = 0;

@@ -98,7 +98,8 @@ const std::vector<Variation>& variations() {
 
 }  // namespace
 
-TEST_CASE("variation: the fast mode and the reference mode give the same receptions and levels") {
+TEST_CASE(
+    "variation: with shadowing and fading, fast mode and reference mode give the same receptions") {
     const std::vector<ReceptionModel> receptions = {Sinr{}, Collision{.capture_ratio = Db{6}},
                                                     Threshold{}, Collision{.capture_ratio = Db{6}}};
     for (std::size_t i = 0; i < variations().size(); ++i) {
@@ -110,21 +111,24 @@ TEST_CASE("variation: the fast mode and the reference mode give the same recepti
 }
 
 TEST_CASE(
-    "variation: also with csma, the fast mode and the reference mode give the same receptions and "
-    "levels") {
+    "variation: with shadowing, fading and csma, fast mode and reference mode give the same "
+    "receptions") {
     const auto fast = play(variations()[3], Sinr{}, Csma{}, false);
     CHECK(fast->all.size() > 200);
     CHECK(fast->all == play(variations()[3], Sinr{}, Csma{}, true)->all);
 }
 
-TEST_CASE("variation: a run in a thousand steps has the same levels as a run in one piece") {
+TEST_CASE(
+    "variation: with shadowing and fading, a run in 1000 steps has the same levels as an undivided "
+    "run") {
     for (const Variation& v : {variations()[2], variations()[3]}) {
         CHECK(play(v, Threshold{}, NoAccess{}, false)->all ==
               play(v, Threshold{}, NoAccess{}, false, 1000)->all);
     }
 }
 
-TEST_CASE("variation: a received level, with its fading, is at least the sensitivity") {
+TEST_CASE(
+    "variation: the level of a received frame, including its fading, is at least the sensitivity") {
     int strong = 0;
     const auto log = play(variations()[1], Threshold{}, NoAccess{}, false);
     for (const auto& [time, node, fate, level] : log->all) {

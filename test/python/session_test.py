@@ -278,12 +278,12 @@ class Steps(unittest.TestCase):
         session = rn.Session(ROW, step=3)
         session.step()
         self.assertEqual((session.done, session.time, session.end), (True, 2.0, 2.0))
-        with self.assertRaisesRegex(rn.RunError, "expected a reset or a finish"):
+        with self.assertRaisesRegex(rn.RunError, "expected reset\\(\\) or finish\\(\\)"):
             session.step()
         run = session.finish()
         self.assertEqual(run.duration, 2.0)
         for use in (session.step, session.finish, lambda: session.time, lambda: session.send("A", b"")):
-            with self.assertRaisesRegex(rn.RunError, "expected a reset first"):
+            with self.assertRaisesRegex(rn.RunError, "expected reset\\(\\) first"):
                 use()
         session.reset()
         session.step()

@@ -324,7 +324,7 @@ TEST_CASE("flood: a message with TTL 260 crosses 260 hops") {
 }
 
 TEST_CASE(
-    "flood: with `upgrade`, more robots get a message than by first copies alone, within the TTL") {
+    "flood: with `upgrade`, a message reaches more robots than without, but none beyond the TTL") {
     std::uint64_t upgraded = 0, first_only = 0, possible = 0;
     for (std::uint32_t seed = 1; seed <= 40; ++seed) {
         const RandomNetwork random(seed);
@@ -370,7 +370,7 @@ TEST_CASE("flood: without jitter, copies are forwarded 1 us after their receptio
     CHECK(heard[0] == start_of_run + 2 * (238'545ns + 1us));
 }
 
-TEST_CASE("flood: with duplicates forwarded, each copy of a message has its own delay") {
+TEST_CASE("flood: with duplicates forwarded, each copy of a message has its own random delay") {
     // The source hears its message back from both neighbours, who send at different times; were
     // the delays equal, so would be the gaps.
     Network net({.propagation = Disc{.range = 1.1_m}, .propagation_delay = false});
@@ -399,7 +399,8 @@ TEST_CASE("flood: with duplicates forwarded, each copy of a message has its own 
 }
 
 TEST_CASE(
-    "flood: if many robots send many messages, each one is delivered once to every other robot") {
+    "flood: if many robots send many messages, each message is delivered once to every other "
+    "robot") {
     Network net({.propagation = Disc{.range = 1.1_m}});
     for (const Vec3 p : grid(4, 4, 0).at) net.add({.name = {}, .at = p});
     const Flood flood{.ttl = 20};

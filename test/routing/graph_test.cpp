@@ -79,7 +79,7 @@ TEST_CASE("graph: a flood reaches every node within its ttl, over the fewest hop
 }
 
 TEST_CASE(
-    "graph: a unicast over an edge is acknowledged; without an edge, its result is `retries`") {
+    "graph: a unicast over an edge is acknowledged; without an edge, it fails after all retries") {
     std::map<SendResult, int> results;
     Graph graph(3, {{0, 1}, {1, 2}}, Direct{&results});
     graph.send(0, 1, start_of_run);
@@ -95,7 +95,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "fake link layer: ended frames are freed, and take_queued returns the queued frames for a next "
+    "fake link layer: a sent frame is freed, and take_queued returns the queued frames for a next "
     "hop") {
     FakeLinkLayer link(3);
     std::map<SendResult, int> results;

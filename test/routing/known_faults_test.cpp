@@ -18,7 +18,8 @@ using test::path;
 using test::request;
 
 TEST_CASE(
-    "aodv, unlike ns-3: a request that comes from the next hop to its destination is forwarded") {
+    "aodv, unlike ns-3: a request is forwarded even if it comes from the next hop to its "
+    "destination") {
     AodvNode n;
     n.learn(5, 2, 10, 3);
     aodv::Request asked = request(7, 5);
@@ -27,7 +28,9 @@ TEST_CASE(
     CHECK(n.sent<aodv::Request>().size() == 1);
 }
 
-TEST_CASE("aodv, unlike ns-3: an older request does not change the route to its originator") {
+TEST_CASE(
+    "aodv, unlike ns-3: a request with an older sequence number does not change the route to its "
+    "originator") {
     AodvNode n;
     n.hear(1, request(7, 5, 1, 20), 2);
     n.hear(2, request(7, 5, 2, 19), 1);
@@ -47,7 +50,8 @@ TEST_CASE("aodv, unlike ns-3: a request makes an invalid route to its originator
 }
 
 TEST_CASE(
-    "aodv, unlike ns-3: the route to a neighbour does not get the originator's sequence number") {
+    "aodv, unlike ns-3: the route to a forwarding neighbour does not get the originator's sequence "
+    "number") {
     AodvNode n;
     n.hear(2, request(7, 5, 1, 20), 3);
     REQUIRE(n.route(2));
@@ -55,7 +59,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "aodv, unlike ns-3: before a RERR, the lost destination's sequence number is incremented") {
+    "aodv, unlike ns-3: a lost destination's sequence number is incremented before a RERR is "
+    "sent") {
     AodvNode n;
     n.pass_reply(7, 2, 5, 1, 9);
     n.forward(7, 2, 5);
@@ -66,14 +71,17 @@ TEST_CASE(
     CHECK(errors[0].second.lost.back().number == 10);
 }
 
-TEST_CASE("aodv, unlike INET: requests of two originators with equal ids are two requests") {
+TEST_CASE(
+    "aodv, unlike INET: requests with the same id but different originators are different "
+    "requests") {
     AodvNode n;
     CHECK(n.hear(2, request(7, 5, 1)) == Fate::waiting);
     CHECK(n.hear(2, request(8, 5, 1)) == Fate::waiting);
     CHECK(n.hear(2, request(7, 5, 1)) == Fate::duplicate);
 }
 
-TEST_CASE("aodv, unlike ns-2: a repair accepts no reply as old as the broken route") {
+TEST_CASE(
+    "aodv, unlike ns-2: during a repair, a reply as old as the broken route is not accepted") {
     // Node 0 loses its route to 5 and repairs it. The answer of a neighbour whose own route went
     // over node 0 has the number of the broken route, and is not accepted.
     AodvNode n({.local_repair = true});
@@ -122,7 +130,8 @@ TEST_CASE("aodv, unlike ns-2: an unanswered search ends, and its messages are dr
     }
 }
 
-TEST_CASE("dsr, unlike ns-2: a request grows at each node only by the node's address") {
+TEST_CASE(
+    "dsr, unlike ns-2: each node that forwards a request enlarges it only by the node's address") {
     DsrNode n;
     n.request(path({7}), 5, 1);
     n.request(path({7, 1}), 5, 2);

@@ -69,8 +69,8 @@ struct Relay {
 }  // namespace
 
 TEST_CASE(
-    "managed flood, rule M1: the first copy with hops left is queued, with a hop limit smaller by "
-    "one") {
+    "managed flood, rule M1: if the first copy has hops left, it is queued with a hop limit "
+    "smaller by one") {
     for (const char* role : {"", "client", "router", "router_late"}) {
         Relay node(role);
         const Reception r = node.hear(3);
@@ -84,8 +84,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "managed flood, rule M1: a copy with hop limit 0 is only delivered, and a mute node relays "
-    "nothing") {
+    "managed flood, rule M1: a copy with hop limit 0 is delivered but not relayed; a `mute` node "
+    "relays nothing") {
     Relay last;
     const Reception at_the_end = last.hear(0);
     CHECK(at_the_end.fate == Fate::ttl);
@@ -100,7 +100,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "managed flood, rule M1: a source sends its message at once, only once, with the full hop "
+    "managed flood, rule M1: a source sends its message once, without delay, with the full hop "
     "limit") {
     Relay node;
     node.router.send(node.link, {1}, node.message);
@@ -152,8 +152,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "managed flood, rule M4: if a client hears a duplicate while its copy is queued, it does not "
-    "relay") {
+    "managed flood, rule M4: if a client hears a duplicate while its copy is queued, the copy is "
+    "cancelled") {
     for (const char* role : {"", "client"}) {
         Relay node(role);
         node.hear(3);
@@ -167,7 +167,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("managed flood, rule M4: a router relays also if it hears a duplicate") {
+TEST_CASE("managed flood, rule M4: a router relays a message even if it hears a duplicate") {
     Relay node("router");
     node.hear(3);
     const auto slots = node.slots();
@@ -176,8 +176,8 @@ TEST_CASE("managed flood, rule M4: a router relays also if it hears a duplicate"
 }
 
 TEST_CASE(
-    "managed flood, rule M4: a late router that hears a duplicate waits behind the slots of all "
-    "others") {
+    "managed flood, rule M4: a `router_late` that hears a duplicate waits until the slots of all "
+    "others are over") {
     Relay node("router_late");
     node.link.drawn = 0.1;
     node.hear(3, -8_dB);
@@ -193,7 +193,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "managed flood, rule M4: a copy that a node hears after its own send time cancels nothing") {
+    "managed flood, rule M4: duplicates that a node hears after its own send time have no effect") {
     for (const char* role : {"", "router", "router_late"}) {
         Relay node(role);
         node.hear(3);
@@ -205,8 +205,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "managed flood, rule M4: a duplicate cancels no new frame that reuses the handle of the sent "
-    "copy") {
+    "managed flood, rule M4: after a copy was sent, a duplicate does not cancel a later frame with "
+    "the same handle") {
     Relay node;
     node.hear(3);
     node.link.sent[0].queued.frame.sender = NodeId{3};
@@ -215,8 +215,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "managed flood, rule M5: in all roles, a duplicate with a higher hop limit replaces the queued "
-    "copy") {
+    "managed flood, rule M5: a duplicate with a higher hop limit replaces the queued copy, in any "
+    "role") {
     for (const char* role : {"", "router", "router_late"}) {
         Relay node(role);
         node.hear(1, -20_dB);
@@ -230,7 +230,8 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("managed flood, rule M5: the delay of the replacing copy is drawn anew") {
+TEST_CASE(
+    "managed flood, rule M5: if a duplicate replaces the queued copy, the delay is drawn anew") {
     Relay node;
     node.link.drawn_at = {{0, 0.25}, {1, 0.75}};
     node.hear(1);
@@ -239,7 +240,9 @@ TEST_CASE("managed flood, rule M5: the delay of the replacing copy is drawn anew
     CHECK(node.slots() == 16 + 192);
 }
 
-TEST_CASE("managed flood, rule M5: if no copy is queued, a higher hop limit has no effect") {
+TEST_CASE(
+    "managed flood, rule M5: if no copy is queued, a duplicate with a higher hop limit has no "
+    "effect") {
     Relay ended;
     ended.hear(0);
     CHECK(ended.hear(1).fate == Fate::duplicate);
@@ -252,8 +255,8 @@ TEST_CASE("managed flood, rule M5: if no copy is queued, a higher hop limit has 
 }
 
 TEST_CASE(
-    "managed flood, rule M6: a message that its source repeats is relayed again if no copy is "
-    "queued") {
+    "managed flood, rule M6: if a source repeats a message and no copy is queued, it is relayed "
+    "again") {
     Relay node;
     node.link.drawn_at = {{0, 0.25}, {1, 0.75}};
     CHECK(node.hear(5).delivered);
@@ -336,8 +339,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "managed flood on graphs: if all nodes are clients in range, the first relay cancels the "
-    "others") {
+    "managed flood on graphs: if all nodes are clients and hear each other, the first that relays "
+    "stops the others") {
     // Relays of the same slot cannot cancel each other: n - 1 nodes in 256 slots, and the first
     // slot is shared by two of them with a probability below (n - 1) / 512.
     for (const std::uint32_t n : {3U, 5U, 10U}) {
@@ -366,7 +369,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "managed flood on graphs: a late router relays a message even after a client has relayed it") {
+    "managed flood on graphs: a `router_late` relays a message even after a client has relayed "
+    "it") {
     int clients_first = 0;
     for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
         const Flooded run =
@@ -377,7 +381,7 @@ TEST_CASE(
     CHECK(std::abs(clients_first - seeds / 2) < 28);  // 4 sigma of 200 fair draws
 }
 
-TEST_CASE("managed flood on graphs: mute nodes never relay") {
+TEST_CASE("managed flood on graphs: nodes with the role `mute` never relay") {
     const std::vector<std::string_view> mutes{"", "mute", "mute", "mute", "mute"};
     CHECK(flooded(5, clique(5), {.roles = mutes}) == Flooded{1, {{1, 1}, {2, 1}, {3, 1}, {4, 1}}});
     const std::vector<Graph::Edge> star{{0, 1}, {1, 2}, {1, 3}, {1, 4}};
@@ -412,7 +416,8 @@ TEST_CASE(
     CHECK(far_first >= seeds - 12);
 }
 
-TEST_CASE("managed flood on graphs: a faster but longer path may use up the hop limit") {
+TEST_CASE(
+    "managed flood on graphs: a path with more hops but shorter delays may use up the hop limit") {
     // 0-1-2-3, and a long way 0-4-5-2 of routers, which relay before client 1.
     const std::vector<Graph::Edge> edges{{0, 1}, {1, 2}, {2, 3}, {0, 4}, {4, 5}, {5, 2}};
     Options options{.roles = {"", "", "", "", "router", "router"},

@@ -16,7 +16,8 @@ struct Value {
     std::uint32_t number = 0;
 };
 
-TEST_CASE("node map: after any inserts and removals, it has the same values as std::map") {
+TEST_CASE(
+    "node map: after random inserts and removals, a node map has the same contents as a std::map") {
     std::mt19937 random{7};
     NodeMap<Value, &Value::node> map;
     std::map<std::uint32_t, std::uint32_t> expected;

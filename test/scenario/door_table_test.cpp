@@ -87,7 +87,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "door: the material of a door is one of the scenario's materials, even if its name is wall") {
+    "door: a door can have any material of the scenario, even a material with the name wall") {
     const House house;
     const Scenario s =
         house.scenario(map + "[scene.materials]\nwall = { per_crossing = \"9 dB\" }\n" + door +

@@ -104,7 +104,7 @@ TEST_CASE("floors: walls of each storey and the ceiling attenuate a link") {
     CHECK(report_link(friis, "a", "b", start_of_run).ceiling_loss.value == 0);
 }
 
-TEST_CASE("floors: a link report has the number of floors that the model counts, and their loss") {
+TEST_CASE("floors: the report of a link states how many floors the model counts, and their loss") {
     const Building building;
     const std::string high =
         "[[robot]]\nname = \"a\"\nat = [\"0 m\", \"0 m\"]\n"
@@ -175,8 +175,8 @@ TEST_CASE("floors: a ceiling may be a slab of a material of ITU-R P.2040") {
 }
 
 TEST_CASE(
-    "floors: materials of the scenario apply to all maps, materials of a file beside a map only to "
-    "this map") {
+    "floors: materials of the scenario apply to all maps; materials of a file beside a map apply "
+    "only to this map") {
     const Building building;
     const std::string model = "[propagation]\nmodel = \"multi_wall\"\n";
     const std::string shared =
@@ -279,8 +279,7 @@ TEST_CASE("floors: an error in a storey is reported with line, column and what w
 }
 
 TEST_CASE(
-    "floors: a robot in a wall of its storey, and a goal off the map or without stairs to it, are "
-    "reported") {
+    "floors: a robot in a wall, a goal off the map and a goal without stairs to it are errors") {
     const Building building;
     const std::string scene = ground() + upper();
     const auto error_of = [&](const std::string& robot) -> std::string {

@@ -112,8 +112,8 @@ TEST_CASE("idle keys: a key that has no effect because of another key gives a no
 }
 
 TEST_CASE(
-    "idle keys: arp_timeout without arp, or a choice of trace lines without a trace, gives a "
-    "notice") {
+    "idle keys: `arp_timeout` without `arp` gives a notice, and so do trace options without a "
+    "trace") {
     check_notice("[access]\narp_timeout = \"1 s\"\n",
                  "2:1: the key \"arp_timeout\" has no effect without [access] arp = true");
     CHECK(notices_of("[access]\narp_timeout = \"1 s\"\narp = true\n").empty());

@@ -74,7 +74,7 @@ TEST_CASE("routing input: the error for an unknown key may suggest a key of anot
 }
 
 TEST_CASE(
-    "routing input: a key that the protocol lacks may have any value another protocol allows") {
+    "routing input: a key of another protocol may have any value that this other protocol allows") {
     for (const std::string protocol : {"flood", "aodv", "dsr", "managed", "suppression"}) {
         CAPTURE(protocol);
         const std::string chosen = "[routing]\nprotocol = \"" + protocol + "\"\n";

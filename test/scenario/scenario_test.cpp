@@ -358,7 +358,7 @@ TEST_CASE("scenario: a scenario printed with all defaults is read back unchanged
 }
 
 TEST_CASE(
-    "scenario: the test scenario meant to have all keys is printed with exactly its own keys") {
+    "scenario: if the test scenario with all keys is printed, exactly the same keys are printed") {
     std::vector<std::string> given, shown;
     list_keys(parse_toml(every_key, ""), "", given);
     list_keys(Value(to_document(read(every_key))), "", shown);
@@ -396,7 +396,8 @@ TEST_CASE(
     CHECK(std::get<Disc>(swapped.propagation.parameters).range == Meters{50});
 }
 
-TEST_CASE("scenario: the key `coefficient` applies to both itu_indoor and raytrace_2007") {
+TEST_CASE(
+    "scenario: the key `coefficient` applies to the models `itu_indoor` and `raytrace_2007`") {
     const Scenario s = read("[propagation]\ncoefficient = 22\n" + robot_a);
     CHECK(std::get<ItuIndoor>(s.propagation.parameters).coefficient == 22);
     CHECK(std::get<Raytrace2007>(s.propagation.parameters).coefficient == 22);

@@ -140,7 +140,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "unlikely input: keys of a robot's motion that a movement file overrides give one notice") {
+    "unlikely input: if a movement file overrides keys for the motion of robots, one notice says "
+    "so") {
     const TemporaryFolder folder;
     folder.write("m.tcl", "$node_(0) set X_ 1\n$node_(1) set X_ 2\n");
     const std::string head = "[movement]\nfile = \"m.tcl\"\n[[robot]]\nname = \"n0\"\n";
@@ -218,7 +219,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "unlikely input: on a map, a coefficient N that includes the loss of walls gives a notice") {
+    "unlikely input: with a map, a coefficient N that already includes the loss of walls gives a "
+    "notice") {
     const std::string robot = "[[robot]]\nname = \"A\"\nat = [\"0.5 m\", \"0.5 m\"]\n";
     const std::string own = "propagation = { model = \"raytrace_2007\" }\n";
     const std::string rays = "[propagation]\nmodel = \"raytrace_2007\"\n";
@@ -250,8 +252,8 @@ TEST_CASE("unlikely input: a material whose pixels are not walls gives a notice"
 }
 
 TEST_CASE(
-    "unlikely input: a material whose greys are not walls by the thresholds of a ROS map gives a "
-    "notice") {
+    "unlikely input: if pixels of a material are not walls by the thresholds of a ROS map, a "
+    "notice says so") {
     const TemporaryFolder folder;
     const test::PngPicture picture{.width = 4, .height = 1, .rows = {{255, 0, 120, 255}}};
     folder.write("m.png", test::png_bytes(picture));
@@ -288,8 +290,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "unlikely input: an error prints a clearance slightly below the radius with enough digits to "
-    "show the difference") {
+    "unlikely input: if a robot's clearance is slightly below its radius, the error has enough "
+    "digits to show it") {
     const TemporaryFolder folder;
     folder.write("wall.png",
                  test::png_bytes({.width = 4, .height = 1, .rows = {{0, 255, 255, 255}}}));
@@ -397,7 +399,8 @@ TEST_CASE(
     CHECK(notices("power", room(0.4)).empty());
 }
 
-TEST_CASE("access: the key eifs accepts true for \"standard\" and false for \"none\"") {
+TEST_CASE(
+    "access: the key `eifs` accepts true instead of \"standard\" and false instead of \"none\"") {
     const TemporaryFolder folder;
     const auto csma = [&](const std::string& keys) {
         return *loaded(folder, "[access]\nmodel = \"csma\"\n" + keys + robot_a).access.as<Csma>();
@@ -488,8 +491,8 @@ TEST_CASE("traffic: robots that send simultaneously give a notice if their frame
 }
 
 TEST_CASE(
-    "scenario errors: a suggested value has the right type; the unknown raytrace_2008 gets no "
-    "suggestion") {
+    "scenario errors: a suggested value has the right type; the unknown model raytrace_2008 gets "
+    "no suggestion") {
     const TemporaryFolder folder;
     const auto error = [&](const std::string& text) {
         return error_of([&] { loaded(folder, text + robot_a); });

@@ -70,7 +70,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "scene changes: all doors that open or close at one time give a single change of the scene") {
+    "scene changes: doors that open or close at the same time give a single change of the scene") {
     const auto open = room();
     const Door a{.from = {1, 2, 0}, .to = {2, 2, 0}, .closes = {1s, 5s}, .opens = {3s, 6s}};
     const Door b{.from = {2, 1, 0}, .to = {2, 2, 0}, .closes = {3s}, .opens = {5s}};

@@ -64,7 +64,7 @@ TEST_CASE(
     CHECK(Scene(grid, {Material{}, brick}).crossings({0.5, 0.5}, {5.5, 0.5}).size() == 1);
 }
 
-TEST_CASE("layers: the loss is equal in both directions, to the last bit") {
+TEST_CASE("layers: the loss of walls is equal in both directions of a link, to the last bit") {
     OccupancyGrid grid = drawn_map({"##.#", ".#.#", "####"}, 0.37);
     grid.cell_materials = {0, 1, 2, 0, 1, 2, 0, 1, 2, 0, 1, 2};
     OccupancyGrid turned = box(0.4, -0.2, 0.3, 0.7, 0.5);
@@ -91,7 +91,9 @@ TEST_CASE(
     CHECK(near(two.wall_length({0, 0.5}, {9, 0.5}), 4));
 }
 
-TEST_CASE("layers: a box turned by 45 degrees is crossed along its diagonal") {
+TEST_CASE(
+    "layers: a ray along the diagonal of a turned box is inside the box for the diagonal's "
+    "length") {
     const double half_turn = 3.14159265358979323846 / 4;
     const Scene scene(box(5, 0, 2, 2, half_turn));
     CHECK(near(scene.wall_length({0, std::sqrt(2)}, {10, std::sqrt(2)}), 2 * std::sqrt(2)));
@@ -146,8 +148,8 @@ TEST_CASE("layers: a cell of the planning grid is free only if no obstacle enter
 }
 
 TEST_CASE(
-    "layers: if a planning grid would have too many cells, they are larger, but only as "
-    "necessary") {
+    "layers: if a planning grid would have too many cells, its cells are enlarged, but only as "
+    "needed") {
     const std::vector<OccupancyGrid> maps{drawn_map({"#..", "..."}, 0.01), box(60, 30, 1, 1)};
     const OccupancyGrid grid = planning_grid(maps);
     const double cells = 1.0 * grid.columns * grid.rows;

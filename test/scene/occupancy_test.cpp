@@ -120,7 +120,9 @@ TEST_CASE("ROS map: the image is searched beside the YAML file, or at an absolut
     CHECK_THROWS_AS(read_ros_map(folder.write("d.yaml", "image: a.pgm" + rest)), InputError);
 }
 
-TEST_CASE("ROS map: gray exactly at a threshold is unknown; the defaults are 0.65 and 0.25") {
+TEST_CASE(
+    "ROS map: a pixel exactly at a threshold is unknown; the default thresholds are 0.65 and "
+    "0.25") {
     // occ = 1 - gray / 255: 89 -> 0.65098, 90 -> 0.64706, 191 -> 0.25098, 192 -> 0.24706
     CHECK(cells_of({0, 89, 90, 191, 192, 255}) ==
           Cells{occupied, occupied, unknown, unknown, free_cell, free_cell});
@@ -131,7 +133,7 @@ TEST_CASE("ROS map: gray exactly at a threshold is unknown; the defaults are 0.6
           Cells{free_cell, occupied});
 }
 
-TEST_CASE("ROS map: the key negate exchanges black and white") {
+TEST_CASE("ROS map: the key `negate` exchanges black and white") {
     CHECK(cells_of({0, 255}) == Cells{occupied, free_cell});
     for (const char* yes : {"1", "true", "True", "yes", "2"})
         CHECK(cells_of({0, 255}, std::string("negate: ") + yes + "\n") ==
@@ -208,8 +210,8 @@ TEST_CASE("ROS map: a key of another program gives a notice, a misspelt key is a
 }
 
 TEST_CASE(
-    "ROS map: if the default of a missing threshold contradicts the given threshold, both get the "
-    "given value") {
+    "ROS map: if one threshold is missing and its default contradicts the other, both get the "
+    "other's value") {
     CHECK(notices_of("occupied_thresh: 0.05\n") ==
           std::vector<std::string>{
               "map.yaml:4:18: the key \"free_thresh\" is missing, and its default value 0.25 "
@@ -222,7 +224,9 @@ TEST_CASE(
     CHECK(cells_of({77, 76, 255}, "free_thresh: 0.7") == Cells{free_cell, occupied, free_cell});
 }
 
-TEST_CASE("ROS map: for an image path of another machine, the image beside the file is suggested") {
+TEST_CASE(
+    "ROS map: if the image's path is of another machine, the error suggests the image beside the "
+    "file") {
     const std::string rest = "\nresolution: 1\norigin: [0, 0, 0]\n";
     for (const char* path : {"/home/someone/maps/map.pgm", "~/maps/map.pgm", "maps/map.pgm",
                              "'C:\\maps\\map.pgm'", "../map.pgm"}) {

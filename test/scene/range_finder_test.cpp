@@ -73,7 +73,7 @@ TEST_CASE("range finder: beams rotate with the robot and with the map") {
 }
 
 TEST_CASE(
-    "range finder: another robot is a disc, and its measured distance equals the closed form") {
+    "range finder: another robot is seen as a disc, at exactly the distance of the closed form") {
     const RangeFinder fan{.beams = 101, .from = Radians{-0.5}, .to = Radians{0.5}};
     const double distance = 3, radius = 0.4;
     const auto ways = measured(
@@ -99,8 +99,8 @@ TEST_CASE("range finder: a beam measures the distance to the nearest wall or rob
 }
 
 TEST_CASE(
-    "range finder: a beam that meets nothing returns the range, a beam that begins in an object "
-    "returns 0") {
+    "range finder: a beam that hits nothing returns the maximum range, a beam that begins in an "
+    "object returns 0") {
     CHECK(measured({}, {}, {0, 0}) == std::vector<double>(181, 8));
     const Scene scene(room());
     CHECK(measured(all_around, scene, {0.5, 0.5}) == std::vector<double>(361, 0));
@@ -116,7 +116,8 @@ TEST_CASE("range finder: a range finder sees over walls that are lower than itse
     CHECK(measured(one, scene, {5, 5, 1.5})[0] == 8);
 }
 
-TEST_CASE("range finder: the distance along a beam agrees with a search in steps of 1 cm") {
+TEST_CASE(
+    "range finder: the distance along a beam agrees with a search of the map in steps of 1 cm") {
     Draw draw(7);
     const Scene scene(random_map(draw, 60, 40, 5));
     for (int n = 0; n < 10; ++n) {

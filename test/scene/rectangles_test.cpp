@@ -45,15 +45,14 @@ TEST_CASE("rectangles: a full map becomes one rectangle, an empty map none") {
     CHECK(solid_rectangles(OccupancyGrid{}, Solid::walls).empty());
 }
 
-TEST_CASE(
-    "rectangles: of two rectangles, one grown first right and one first up, the larger is taken") {
+TEST_CASE("rectangles: a rectangle grows first right or first up, whichever makes it larger") {
     CHECK(solid_rectangles(drawn_map({"#..", "#..", "#..", "##."}), Solid::walls) ==
           std::vector<CellRectangle>{{0, 0, 1, 4}, {1, 0, 2, 1}});
     CHECK(solid_rectangles(drawn_map({"#..", "###"}), Solid::walls) ==
           std::vector<CellRectangle>{{0, 0, 3, 1}, {0, 1, 1, 2}});
 }
 
-TEST_CASE("rectangles: unknown cells are obstacles but no walls") {
+TEST_CASE("rectangles: unknown cells are obstacles, but not walls") {
     const OccupancyGrid grid = drawn_map({"?#?", "..."});
     CHECK(solid_rectangles(grid, Solid::walls) == std::vector<CellRectangle>{{1, 1, 2, 2}});
     CHECK(solid_rectangles(grid, Solid::obstacles) == std::vector<CellRectangle>{{0, 1, 3, 2}});

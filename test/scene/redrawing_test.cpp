@@ -69,7 +69,7 @@ TEST_CASE("redrawing: a map whose cells are split has the same walls, to the las
 }
 
 TEST_CASE(
-    "redrawing: four cells, at least one of them a wall, join to a wall of the first wall's "
+    "redrawing: four joined cells become a wall if at least one is a wall, with the first wall's "
     "material") {
     const OccupancyGrid joined = join_cells(two_materials({"....?",  //
                                                            ".....",  //
@@ -86,13 +86,15 @@ TEST_CASE("redrawing: a map of a single cell is not joined into larger cells") {
     CHECK(join_cells(drawn_map({"#"})).cell_width == 1);
 }
 
-TEST_CASE("redrawing: joining split cells gives the original map") {
+TEST_CASE("redrawing: splitting cells and joining them again gives the original map") {
     Draw draw(3);
     const OccupancyGrid map = test::random_map(draw, 20, 13, 40);
     CHECK(drawing(join_cells(split_cells(map))) == drawing(map));
 }
 
-TEST_CASE("redrawing: the outline of a wall has no gap, and thin walls are unchanged") {
+TEST_CASE(
+    "redrawing: a thick wall is replaced by its outline without gaps, and a thin wall is "
+    "unchanged") {
     const OccupancyGrid outlined = outline_walls(drawn_map({"########.#",  //
                                                             "########.#",  //
                                                             "########.#",  //
@@ -106,7 +108,8 @@ TEST_CASE("redrawing: the outline of a wall has no gap, and thin walls are uncha
 }
 
 TEST_CASE(
-    "redrawing: a hollow wall up to the given width is filled with the nearest side's material") {
+    "redrawing: a hollow wall, up to the given width, is filled with the material of the nearest "
+    "side") {
     const OccupancyGrid map = two_materials(hollow);
     const OccupancyGrid filled = fill_walls(map, Meters{1});
     CHECK(drawing(filled)[2] == ".#######.");

@@ -100,7 +100,8 @@ TEST_CASE(
     CHECK(back[1].length == found[0].length);
 }
 
-TEST_CASE("crossings: distances are along the 3-D segment") {
+TEST_CASE(
+    "crossings: distances are measured along the sloped segment, not in the horizontal plane") {
     const Scene scene(drawn_map({".#.."}));
     const auto found = scene.crossings({0, 0.5, 0}, {4, 0.5, 3});  // 5 m long over 4 cells
     REQUIRE(found.size() == 1);
@@ -140,7 +141,7 @@ TEST_CASE("crossings: a ray along an outer edge of a wall is outside the wall") 
     CHECK(scene.crossings({3, 4}, {3, 0}).empty());
 }
 
-TEST_CASE("crossings: a ray along the edge of the map is outside the walls") {
+TEST_CASE("crossings: a ray along an edge of the map is outside the wall cells at this edge") {
     const Scene scene(drawn_map({"##", "##"}));
     CHECK(scene.crossings({-1, 0}, {3, 0}).empty());
     CHECK(scene.crossings({2, -1}, {2, 3}).empty());
@@ -155,7 +156,8 @@ TEST_CASE("crossings: a ray that only touches a corner of a wall does not cross 
     CHECK(scene.crossings({1, 1.5}, {0, 1.5}).empty());  // starts on the face, going out
 }
 
-TEST_CASE("crossings: a ray through the corner where two wall cells touch stays inside the wall") {
+TEST_CASE(
+    "crossings: if a ray passes from one wall cell to the next at a corner, it stays in the wall") {
     const Scene scene(drawn_map({"....", "..#.", ".#..", "...."}));
     const double diagonal = std::sqrt(2.0);
     REQUIRE(scene.crossings({0, 0}, {4, 4}).size() == 1);
@@ -177,8 +179,7 @@ TEST_CASE("crossings: a ray through adjacent walls has one crossing") {
 }
 
 TEST_CASE(
-    "crossings: a ray along a face is outside the wall, also if rounding would put it into the "
-    "next cell") {
+    "crossings: a ray along the face of a wall is outside the wall, in spite of rounding errors") {
     // 0.15 / 0.05 is just below 3, so a point at 0.15 m would lie in the wall of the first map.
     const Scene before(drawn_map({"..#....", "..#...."}, 0.05));
     const Scene behind(drawn_map({"...#...", "...#..."}, 0.05));
@@ -210,8 +211,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "crossings: if map and link are rotated and shifted together, lengths and clearances stay "
-    "equal") {
+    "crossings: if map and link are rotated and shifted together, wall lengths and clearances do "
+    "not change") {
     OccupancyGrid grid = rooms();
     const Scene plain(grid);
     grid.origin = {2, -1, 0};
@@ -231,7 +232,8 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("crossings: for ends as far as 1e9 m away, crossings are finite and in order") {
+TEST_CASE(
+    "crossings: if the ends of a segment are 1e9 m away, its crossings are finite and in order") {
     const Scene scene(rooms());
     for (const double far : {1e6, 1e9}) {
         const auto found = scene.crossings({-far, 2.5}, {far, 2.5});
@@ -247,7 +249,7 @@ TEST_CASE("crossings: for ends as far as 1e9 m away, crossings are finite and in
 }
 
 TEST_CASE(
-    "wall length: if an upper limit is given, a result above this limit is only a lower bound") {
+    "wall length: the length is exact up to a given limit; a larger result is only a lower bound") {
     const Scene scene(drawn_map({".#.#.#.#"}));
     CHECK(near(scene.wall_length({0, 0.5}, {8, 0.5}), 4));
     CHECK(scene.wall_length({0, 0.5}, {8, 0.5}, 4.5) == scene.wall_length({0, 0.5}, {8, 0.5}));
@@ -284,7 +286,7 @@ TEST_CASE("inside map: points on the edges of the map are inside") {
     CHECK_FALSE(scene.inside_map({3, -0.001}));
 }
 
-TEST_CASE("clearance: the clearance is the distance to the nearest of all wall rectangles") {
+TEST_CASE("clearance: the clearance of a point is its distance to the nearest wall rectangle") {
     test::Draw draw(7);
     for (int trial = 0; trial < 30; ++trial) {
         OccupancyGrid grid =

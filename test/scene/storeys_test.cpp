@@ -62,7 +62,8 @@ TEST_CASE("storeys: a horizontal link crosses the walls of its own storey") {
     }
 }
 
-TEST_CASE("storeys: each part of a link between storeys crosses the walls of the storey it is in") {
+TEST_CASE(
+    "storeys: each part of a link between storeys crosses the walls of the storey in which it is") {
     const Scene scene = two_storeys();
     // It rises 1 m per metre and passes the ceiling at x = 3: both pillars stand in its way.
     const double slope = std::sqrt(2.0);
@@ -131,7 +132,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "storeys: the height of a wall is measured from its floor, and the wall ends at the ceiling") {
+    "storeys: the height of a wall is measured from the floor, and the wall ends at the ceiling") {
     const Scene low = two_storeys({Material{.height = Meters{2}}});
     CHECK(near(low.wall_length({0, 1.5, 1.9}, {6, 1.5, 1.9}), 1));
     CHECK(low.wall_length({0, 1.5, 2.1}, {6, 1.5, 2.1}) == 0);

@@ -184,7 +184,7 @@ TEST_CASE(
     });
 }
 
-TEST_CASE("wall index: a ray that comes from far away and passes corners of tiles misses no wall") {
+TEST_CASE("wall index: all walls are found for a ray from far away through corners of tiles") {
     test::Draw draw(17);
     const OccupancyGrid grid = test::random_map(draw, 200, 200, 50);
     const WallIndex index = index_of(grid);
@@ -235,8 +235,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "wall index: the length inside walls is exact up to a given limit, and a lower bound above "
-    "this limit") {
+    "wall index: the length inside walls is exact up to a given limit; a larger result is a lower "
+    "bound") {
     for_random_rays(15, [](const World& world, const Ray& ray, test::Draw& draw) {
         const double all = std::numeric_limits<double>::infinity();
         const double exact = world.index.solid_length(ray.a, ray.b, length_of(ray), all);
@@ -251,7 +251,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "wall index: the total length of a ray inside walls is the sum of its crossings' lengths") {
+    "wall index: the length of a ray inside walls is the sum of the lengths of its crossings") {
     for_random_rays(16, [](const World& world, const Ray& ray, test::Draw&) {
         if (ray.a == ray.b) return;
         std::vector<Crossing> found;

@@ -39,7 +39,7 @@ constexpr Vec3 middle{side * cell_side / 2 + 1e-4, side* cell_side / 2 + 1e-4, 0
 }  // namespace
 
 TEST_CASE(
-    "wall thickness: the thickness of a straight wall is right within one cell, at any angle") {
+    "wall thickness: for a straight wall at any angle, the error is at most the side of one cell") {
     for (const double thickness : {0.1, 0.3, 0.6}) {
         for (int degrees = 0; degrees < 180; degrees += 5) {
             CAPTURE(thickness);
@@ -88,7 +88,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "wall thickness: the value is 0 outside walls; where two walls cross, the thinner wall "
+    "wall thickness: the thickness is 0 outside walls; where two walls cross, the thinner one "
     "counts") {
     OccupancyGrid grid = with_wall(0.1, 0);
     for (std::size_t i = 0; i < grid.cells.size(); ++i) {
@@ -103,7 +103,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "wall thickness: threads that request the thickness first, at the same time, get the same "
+    "wall thickness: if several threads make the first request at the same time, all get the same "
     "result") {
     const Scene scene(with_wall(0.3, 0.5));
     std::vector<double> found(4);

@@ -98,7 +98,8 @@ TEST_CASE("walls: a straight wall counts as one wall, at any angle, also for gra
     CHECK(in_parts > 100);  // the cells alone would tell otherwise
 }
 
-TEST_CASE("walls: a ray that touches only the stepped edge of a slanted wall passes no wall") {
+TEST_CASE(
+    "walls: touching only the stepped edge of a slanted wall does not count as crossing a wall") {
     int touching = 0;
     for (const double angle : {7.0, 20.0, 33.0, 52.0}) {
         const double cell = 0.05, thick = 0.15;
@@ -134,7 +135,7 @@ TEST_CASE("walls: two parallel walls 12 cm apart count as two, at any angle") {
         }
 }
 
-TEST_CASE("walls: if walls are parallel to the cells, each crossing is a separate wall") {
+TEST_CASE("walls: if walls are parallel to the cells, each crossing counts as a separate wall") {
     // Rooms of 2 m with doors and corners, and two walls a cell apart, in cells of 10 cm.
     Drawing office{0, {}};
     for (const double at : {-6.0, -4.0, -2.0, 0.0, 2.0, 4.0, 6.0}) {
@@ -215,7 +216,7 @@ TEST_CASE("walls: a gap that ends at the border of the map is not the inside of 
 }
 
 TEST_CASE(
-    "walls: a closed door counts as a separate wall, and the wall beside it still counts as one") {
+    "walls: a closed door counts as a separate wall, and the wall beside it still as one wall") {
     const double thick = 0.15;
     const Drawing drawing{20 * degree,
                           {{-5.5, -thick / 2, -0.5, thick / 2}, {0.5, -thick / 2, 5.5, thick / 2}}};

@@ -36,7 +36,7 @@ TEST_CASE(
     CHECK_THROWS_AS(list.at(1), std::out_of_range);
 }
 
-TEST_CASE("chunks: a copied list has its own values") {
+TEST_CASE("chunks: a list and its copy can be changed independently of each other") {
     Chunks<int> list;
     for (int i = 0; i < 100; ++i) list.push_back(i);
     Chunks<int> copy = list;

@@ -87,7 +87,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("legs: after many changes every node has its last leg (piece of movement)") {
+TEST_CASE("legs: after many changes every node has the leg (piece of movement) that was set last") {
     constexpr std::uint32_t nodes = 50;
     const auto kinds = kinds_of_legs();
     Legs legs;
@@ -112,7 +112,7 @@ TEST_CASE("legs: after many changes every node has its last leg (piece of moveme
     CHECK(legs.size() == nodes);
 }
 
-TEST_CASE("legs: a node that starts and rests again and again takes no more memory") {
+TEST_CASE("legs: a node that starts and stops again and again does not take more and more memory") {
     const Leg moving{.start = begin, .end = begin + 1s, .velocity = {1, 0, 0}, .to = {1, 0, 0}};
     Legs legs;
     const NodeId node = legs.add(standing);

@@ -68,7 +68,7 @@ double worst_atan2_ulp(int spread) {
 
 }  // namespace
 
-TEST_CASE("logarithms: errors are below one ulp, near 1 and far from it") {
+TEST_CASE("logarithms: errors are below one unit in the last place, near 1 and far from it") {
     CHECK(worst_log_ulp(0.5, 2) < log_bound_ulp);
     CHECK(worst_log_ulp(0.999, 1.001) < log_bound_ulp);
     CHECK(worst_log_ulp(1.39, 1.43) < log_bound_ulp);  // where the range reduction jumps
@@ -79,7 +79,8 @@ TEST_CASE("logarithms: errors are below one ulp, near 1 and far from it") {
 }
 
 TEST_CASE(
-    "powers: errors are below the stated bounds in ulps, inside and outside the normal range") {
+    "powers: errors are below the stated numbers of units in the last place, also for subnormal "
+    "results") {
     CHECK(worst_ulp(math::exp2, long_exp2, -1, 1) < exp2_bound_ulp);
     CHECK(worst_ulp(math::exp2, long_exp2, -1022, 1024) < exp2_bound_ulp);
     CHECK(worst_ulp(math::exp2, long_exp2, -1075, -1022) < exp2_bound_ulp);
@@ -93,7 +94,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "log(1 + x), e^x - 1: errors are below the stated bounds in ulps, near 0 and far from it") {
+    "log(1 + x), e^x - 1: errors are below the stated numbers of units in the last place, near 0 "
+    "and far from it") {
     const auto exact_log = [](long double x) { return std::log1p(x); };
     const auto log_ulp = [&](double a, double b) {
         return worst_ulp(math::log1p, exact_log, a, b);
@@ -116,7 +118,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "log(1 + x), e^x - 1: values at 0, at infinity and at the pole are right, also the sign of 0") {
+    "log(1 + x), e^x - 1: values at 0, at infinity and at the pole are right, and zeros have the "
+    "right sign") {
     CHECK(math::log1p(-1) == -Limits::infinity());
     CHECK(math::log1p(Limits::infinity()) == Limits::infinity());
     CHECK(math::expm1(-Limits::infinity()) == -1);
@@ -239,7 +242,9 @@ TEST_CASE("powers: all compilers give the same bits") {
     CHECK(fingerprint(math::exp10, -10, 10) == 0x0a24e2851806d537);
 }
 
-TEST_CASE("sine and cosine: errors are below one ulp, in the first octant and after many turns") {
+TEST_CASE(
+    "sine and cosine: errors are below one unit in the last place, in the first octant and after "
+    "many turns") {
     CHECK(worst_sincos_ulp(-0.8, 0.8) < sincos_bound_ulp);
     CHECK(worst_sincos_ulp(-1e-5, 1e-5) < sincos_bound_ulp);
     CHECK(worst_sincos_ulp(0.785, 0.786) < sincos_bound_ulp);  // where the range reduction jumps
@@ -248,7 +253,7 @@ TEST_CASE("sine and cosine: errors are below one ulp, in the first octant and af
     CHECK(worst_sincos_ulp(-1e9, 1e9) < sincos_bound_ulp);
 }
 
-TEST_CASE("sine and cosine: errors are at most one ulp at the doubles nearest to their zeros") {
+TEST_CASE("sine and cosine: near their zeros, errors are at most one unit in the last place") {
     // The doubles nearest to multiples of pi / 2; computed to 400 bits, then rounded.
     struct Known {
         double x, sin, cos;
@@ -293,13 +298,13 @@ TEST_CASE("sine and cosine: arguments beyond 1e9 radians, infinity and NaN give 
     }
 }
 
-TEST_CASE("angles: errors of atan2 are below two ulps in every direction") {
+TEST_CASE("angles: errors of atan2 are below two units in the last place in every direction") {
     CHECK(worst_atan2_ulp(0) < atan2_bound_ulp);
     CHECK(worst_atan2_ulp(6) < atan2_bound_ulp);
     CHECK(worst_atan2_ulp(1000) < atan2_bound_ulp);
 }
 
-TEST_CASE("angles: multiples of an eighth of a turn are exact") {
+TEST_CASE("angles: atan2 is exact at multiples of an eighth of a turn") {
     constexpr double pi = 0x1.921fb54442d18p+1;
     for (const double r : {1.0, 0.3, 1e-320, 1e300, Limits::max(), Limits::infinity()}) {
         CAPTURE(r);

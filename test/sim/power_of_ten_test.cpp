@@ -18,7 +18,8 @@ TEST_CASE("power of ten: multiplying a decimal number by a power of ten rounds o
 }
 
 TEST_CASE(
-    "power of ten: results that are zero, overflow or underflow keep the sign; NaN stays NaN") {
+    "power of ten: the sign is kept if the result is zero, overflows or underflows; NaN stays "
+    "NaN") {
     CHECK(times_power_of_ten(0, 3) == 0);
     CHECK(std::signbit(times_power_of_ten(-0.0, 3)));
     CHECK(times_power_of_ten(1e308, 3) == HUGE_VAL);

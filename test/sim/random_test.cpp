@@ -146,7 +146,7 @@ TEST_CASE("philox: outputs equal the published known answers of Random123") {
 }
 
 TEST_CASE(
-    "combine: outputs equal the published splitmix64, and the order of the arguments matters") {
+    "combine: outputs equal those published for splitmix64; the order of the arguments matters") {
     constexpr std::uint64_t golden = 0x9e3779b97f4a7c15;
     constexpr std::uint64_t first_of_seed_0 = 0xe220a8397b1dcdaf;
     CHECK(combine(0, golden + 1234567 - first_of_seed_0) == 6457827717110365317);
@@ -181,7 +181,7 @@ TEST_CASE("random: equal keys give equal bits with every compiler") {
     CHECK(sum == 0x26bf317e6803070b);
 }
 
-TEST_CASE("random: each purpose of random numbers keeps the number that it was first assigned") {
+TEST_CASE("random: the code numbers of the purposes of random numbers never change") {
     CHECK(static_cast<int>(Purpose::flood_jitter) == 1);
     CHECK(static_cast<int>(Purpose::link_shadowing) == 2);
     CHECK(static_cast<int>(Purpose::placement) == 3);

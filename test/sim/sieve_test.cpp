@@ -30,7 +30,7 @@ TEST_CASE("sieve: exactly the selected values are kept, in order, for any number
 }
 
 TEST_CASE(
-    "sieve: values written into the memory from room() are kept up to the end given to keep_to()") {
+    "sieve: values written into the memory of room() are kept up to the end passed to keep_to()") {
     Sieve<int> sieve;
     for (const std::size_t room : {0UL, 1UL, 5UL, 100UL, 3UL, 1000UL}) {
         sieve.put(-1, true);

@@ -6,7 +6,7 @@
 namespace told_apart_test {
 using namespace rovernet;
 
-TEST_CASE("rounding beside a limit: the rounded number is on the same side of the limit") {
+TEST_CASE("rounding beside a limit: the rounded number stays on the same side of the limit") {
     CHECK(told_apart(0.05, 0.1, 3) == "0.050");
     CHECK(told_apart(0.0996, 0.1, 3) == "0.0996");
     CHECK(told_apart(0.00099999, 0.001, 3) == "0.00099999");

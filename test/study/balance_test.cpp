@@ -85,8 +85,8 @@ constexpr double rounding = 1e-12;  // of a mean of a few numbers below 1
 }  // namespace
 
 TEST_CASE(
-    "balance: rows of results that lack different runs are not averaged; the error lists the "
-    "missing runs") {
+    "balance: if rows of results lack different runs, no means are given; the error lists these "
+    "runs") {
     const TemporaryFolder folder;
     const Store store = made(folder.path("s.db"), biased);
     const std::string text = refusal(store, {.group_by = by_ttl});
@@ -104,8 +104,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "balance: means over the runs that all rows have are right, even if failed runs reverse the "
-    "order of plain means") {
+    "balance: means over the runs that all rows have are right, even if plain means mislead "
+    "because of failed runs") {
     const TemporaryFolder folder;
     const Store store = made(folder.path("s.db"), biased);
     const Answers all = answers(store, {.group_by = by_ttl, .common = true});
@@ -173,7 +173,7 @@ TEST_CASE(
     CHECK(coverage_text(all) == "averaged over traffic.0.every; unfinished: 6 runs are missing");
 }
 
-TEST_CASE("balance: a key with only one value in each row is reported, and not averaged over") {
+TEST_CASE("balance: a key that has only one value in each row is reported as not averaged over") {
     const TemporaryFolder folder;
     Store store = Store::open_to_write(folder.path("s.db"));
     std::vector<StoredPoint> points;
@@ -187,10 +187,13 @@ TEST_CASE("balance: a key with only one value in each row is reported, and not a
     const Answers all = answers(store, {.metrics = {"reach"}, .group_by = by_ttl});
     CHECK(all.averaged.empty());
     CHECK(all.along == std::vector<std::string>{"radio.power"});
-    CHECK(has(coverage_text(all), "not averaged over radio.power (each row has only one value)"));
+    CHECK(has(coverage_text(all),
+              "not averaged over radio.power (each row has only one value of such a key)"));
 }
 
-TEST_CASE("balance: runs of a combination of values that the study lacks count as missing runs") {
+TEST_CASE(
+    "balance: if a combination of values is not in the study, the runs of this combination count "
+    "as missing") {
     const TemporaryFolder folder;
     const Store store = made(folder.path("s.db"), [](int, int, int) { return Ending::finished; });
     std::vector<StoredPoint> points = store.points();

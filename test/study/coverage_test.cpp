@@ -169,12 +169,16 @@ TEST_CASE("coverage: STaR-Bets fail if checked repeatedly, but betting intervals
     CHECK(betting <= most * studies);
 }
 
-TEST_CASE("coverage: intervals by Student's t cover the mean too seldom, and a test detects this") {
+TEST_CASE(
+    "coverage: for skewed delivery ratios, intervals by Student's t cover the mean in less than 60 "
+    "% of studies") {
     CHECK(coverage(density(250), 30, 200, IntervalMethod::t) < 0.6);
     CHECK(coverage(density(300), 100, 200, IntervalMethod::t) < 0.5);
 }
 
-TEST_CASE("coverage: if a study stops at a precision of 0.1, the interval still covers the mean") {
+TEST_CASE(
+    "coverage: if a study ends when it reaches a precision of 0.1, the interval still covers the "
+    "mean") {
     constexpr int studies = 200;
     StudyTable table;
     table.precision = 0.1;
@@ -197,8 +201,8 @@ TEST_CASE("coverage: if a study stops at a precision of 0.1, the interval still 
 }
 
 TEST_CASE(
-    "coverage: for normal values, betting and STaR-Bets are wider than Student's t by the "
-    "documented factors") {
+    "coverage: for normally distributed values, intervals by betting and STaR-Bets are wider than "
+    "those by Student's t, by the documented factors") {
     constexpr int studies = 50;
     constexpr double last_digit = 0.05;
     const auto bounded = [](std::span<const double> values, IntervalMethod method) {

@@ -201,7 +201,7 @@ TEST_CASE(
         "found other keys, expected the keys of the first point");
     has(error("UPDATE point SET settings = '{\"propagation.model\":null}'", 0), "found null for");
     has(error("UPDATE point SET number = 7 WHERE key = 2", 0),
-        "column \"number\": found the number 7, expected 1: ");
+        "column \"number\": found the number 7, expected 1, because ");
     has(error("UPDATE point SET number = 0", 0), "points are numbered from 0 on");
     has(error("UPDATE run SET point = 77 WHERE key = 3", 2),
         "table \"run\", row with key \"3\", column \"point\": found nothing (NULL)");

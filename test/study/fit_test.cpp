@@ -165,8 +165,8 @@ TEST_CASE("least squares: invalid input is refused") {
 }
 
 TEST_CASE(
-    "tobit: fits with and without far links that are too weak to be seen equal those of another "
-    "program") {
+    "tobit: if far links are too weak to be seen, fits with and without them equal those of "
+    "another program") {
     const Vectors links("fit_censored_links.csv"), expected("fit_censored.csv");
     constexpr double floor = -88;  // [dBm]
     Observations data{.columns = 2}, seen{.columns = 2};

@@ -66,7 +66,7 @@ TEST_CASE("levels: a number out of range is an error with line, column and range
     }
 }
 
-TEST_CASE("levels: a level that no radio sends or receives is an error") {
+TEST_CASE("levels: a level below -300 dBm or above 100 dBm is an error") {
     for (const char* bad : {"-300.1", "100.1", "-999", "1000"}) {
         CHECK(said(6, bad) ==
               fmt::format("found \"{}\", expected a level from -300 to 100 [dBm]", bad));

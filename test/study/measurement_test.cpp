@@ -61,8 +61,7 @@ vary.robot.A.radius = ["0.3 m", "0.4 m"]
 
 }  // namespace
 
-TEST_CASE(
-    "measurement: the delivery ratio at a robot that none of the three messages reaches is 0") {
+TEST_CASE("measurement: if a robot gets none of three messages, its delivery ratio is 0") {
     test::TemporaryFolder folder;
     folder.write("s.toml", R"([scenario]
 duration = "5 s"

@@ -43,7 +43,9 @@ bool throws_input_error(Store& store, const std::string& shard) {
 
 }  // namespace
 
-TEST_CASE("merge: a shard's runs are copied with their values, and the shard is removed") {
+TEST_CASE(
+    "merge: runs of a shard (part of a study) are copied with their values, and the shard is "
+    "removed") {
     const TemporaryFolder folder;
     Store store = store_with(folder.path("s.db"), 0);
     store_with(folder.path("1.db"), 1);
@@ -73,7 +75,9 @@ TEST_CASE("merge: runs that a killed process left in the journal of its store ar
     }
 }
 
-TEST_CASE("merge: a shard that is still open for writing is not merged, and stays unchanged") {
+TEST_CASE(
+    "merge: a shard (part of a study) that is still being written is not merged, and stays "
+    "unchanged") {
     const TemporaryFolder folder;
     Store store = store_with(folder.path("s.db"), 0);
     const Store shard = store_with(folder.path("1.db"), 1);
@@ -85,7 +89,7 @@ TEST_CASE("merge: a shard that is still open for writing is not merged, and stay
     CHECK(fs::exists(store.path()));
 }
 
-TEST_CASE("merge: a shard without runs is removed silently") {
+TEST_CASE("merge: a shard (part of a study) without runs is removed silently") {
     const TemporaryFolder folder;
     Store store = store_with(folder.path("s.db"), 0);
     merge_and_remove(store, folder.write("1.db", ""));

@@ -210,7 +210,7 @@ TEST_CASE("a flipped bit in the scenario of a recorded trace changes the scenari
     CHECK(tally.taken > 20);
 }
 
-TEST_CASE("a flipped bit in records without a checksum causes no access outside an array") {
+TEST_CASE("a flipped bit in records without a checksum never causes an access outside an array") {
     const Sample s;
     std::vector<std::size_t> places = record_places(s.records);
     for (std::size_t& each : places) each += s.records_at;
@@ -256,10 +256,12 @@ TEST_CASE("missing, short, doubled or wrong names in a recorded trace are report
           "this trace contains two different files with the name x/a; expected one file of this "
           "name");
     CHECK(refusal(right + attachment("x", "1") + attachment("x/a", "2")) ==
-          "the file x/a, which this trace contains, cannot be stored in a temporary folder");
+          "the file x/a, which this trace contains, cannot be stored in a temporary folder; check "
+          "the space on the disk, or record the run again");
 }
 
-TEST_CASE("some flipped bits give records of robots whose name the recorded trace lacks") {
+TEST_CASE(
+    "some flipped bits in a recorded trace give records of robots that have no name in the trace") {
     const Sample s;
     int beyond = 0;
     for (std::size_t i = 0; i < s.records.size(); ++i) {

@@ -85,7 +85,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "results: the interval of a ratio is by STaR-Bets, at most 1, or by Student's t on request") {
+    "results: intervals of a ratio are by STaR-Bets and end at 1; on request they are by Student's "
+    "t") {
     const TemporaryFolder folder;
     Store store = Store::open_to_write(folder.path("s.db"));
     store.set_points({{0, "p", {}}});

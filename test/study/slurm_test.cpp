@@ -41,7 +41,9 @@ std::vector<std::string> words_given(const TemporaryFolder& folder, const std::s
 
 }  // namespace
 
-TEST_CASE("slurm: a task has the requested number of runs, or more, to need at most 1000 tasks") {
+TEST_CASE(
+    "slurm: a task has the requested number of runs, or more if there would be more than 1000 "
+    "tasks") {
     const auto tasks = [](std::uint64_t runs, std::uint64_t chunk) {
         return runs / chunk + (runs % chunk > 0 ? 1 : 0);
     };
@@ -112,7 +114,7 @@ TEST_CASE("slurm: the scripts of a plain sweep have exactly the expected text") 
 }
 
 TEST_CASE(
-    "slurm: the merge runs after the tasks, and the user's options follow those of rovernet") {
+    "slurm: the merging job starts after all tasks; the user's options follow those of rovernet") {
     SlurmSweep sweep = plain_sweep();
     using Words = std::vector<std::string>;
     CHECK(sweep.submit_job() == Words{"sbatch", "--parsable", "--job-name=s", "--array=0-2,5",
@@ -157,7 +159,7 @@ TEST_CASE("slurm: the scripts pass all arguments to rovernet unchanged, whatever
     }
 }
 
-TEST_CASE("slurm: a script whose folder is missing runs nothing") {
+TEST_CASE("slurm: if the folder of a script is missing, the script fails and runs nothing") {
     SlurmSweep sweep = plain_sweep();
     sweep.directory = "/nowhere/at all";
     sweep.command = "/bin/echo";

@@ -164,8 +164,9 @@ TEST_CASE("store: a file that is not a store is refused") {
     CHECK(error_of(folder.path("none.db")).find("no such store") != std::string::npos);
     CHECK(error_of(folder.path("")).find("it is a folder") != std::string::npos);
     const std::string text = folder.write("t.db", "this is a text and not a store of anything");
-    CHECK(error_of(text) ==
-          text + ": this file is not a store of a study, or the store is damaged");
+    CHECK(error_of(text) == text +
+                                ": this file is not a store of a study, or the store is damaged; "
+                                "give a different file, or restore a copy of the store");
     CHECK_THROWS_AS(Store::open_to_write(text), InputError);
     CHECK_THROWS_AS(Store::open_to_write(folder.path("")), InputError);
     const std::string other = folder.path("other.db");

@@ -84,9 +84,8 @@ TEST_CASE("study: a point is skipped if each key of an exclusion has one of the 
           Texts{"a=2, b=7"});
     CHECK_THROWS_WITH_AS(
         points_of("vary.a = [\"disc\", \"friis\"]\nexclude = [{ a = [\"disc\", \"fris\"] }]"),
-        doctest::Contains(
-            "exclude: found a = \"fris\", which is not among the values of vary; expected one of "
-            "\"disc\", \"friis\"; did you mean \"friis\"?"),
+        doctest::Contains("exclude: found a = \"fris\", which is not among the values of \"vary\"; "
+                          "expected one of \"disc\", \"friis\"; did you mean \"friis\"?"),
         InputError);
     CHECK_THROWS_WITH_AS(points_of("vary.a = [1]\nexclude = [{ a = 1 }]"),
                          doctest::Contains("exclude every point"), InputError);

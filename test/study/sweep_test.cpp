@@ -90,7 +90,7 @@ TEST_CASE("sweep: every replication of every point runs once, and a second sweep
     CHECK(bench.csv() == csv);
 }
 
-TEST_CASE("sweep: a run of a sweep equals the run of a separate network") {
+TEST_CASE("sweep: a run of a sweep equals the same run made separately") {
     const Bench bench(scattered + study_keys);
     bench.sweep();
     const Store store = Store::open(bench.store());
@@ -168,7 +168,8 @@ vary."propagation.model" = ["friis", "log_distance", "two_ray"]
     }
 }
 
-TEST_CASE("sweep: the same replication at two points has the same robots at the same positions") {
+TEST_CASE(
+    "sweep: in a given replication, robots have the same positions for all points of the study") {
     // The larger range reaches at least those that the smaller one does.
     const Bench bench(scattered + study_keys);
     bench.sweep({}, {"study.replications=10"});
@@ -301,7 +302,9 @@ TEST_CASE("sweep: all shards (parts of a study) together give the whole study") 
     CHECK(bench.csv() == whole.csv());
 }
 
-TEST_CASE("sweep: states of runs are listed in the order in which runs are divided among shards") {
+TEST_CASE(
+    "sweep: states of runs are listed in the order in which runs are divided among shards (parts "
+    "of a study)") {
     const Bench bench(scattered + study_keys);
     bench.sweep({.workers = 1, .shard = Shard{1, 2}});
     Study study = bench.study();
@@ -373,8 +376,8 @@ TEST_CASE("sweep: with study.precision, a point with a failed run gets no furthe
 }
 
 TEST_CASE(
-    "explain: the command that repeats a run sets the options of the sweep and the values of its "
-    "point") {
+    "explain: the command that repeats a run sets the options of the sweep and the values of the "
+    "run's point") {
     const Bench bench(scattered + study_keys);
     bench.sweep({}, {"scenario.name=it's"});
     const Store store = Store::open(bench.store());

@@ -78,8 +78,8 @@ TEST_CASE("workers: a task that throws an exception fails, but the worker proces
 }
 
 TEST_CASE(
-    "workers: a crash of a task affects no other task, and the error contains the task's last "
-    "output") {
+    "workers: a crash of a task does not affect other tasks, and the error contains the task's "
+    "last output") {
     Workers workers(1,
                     [](std::uint64_t task) -> std::string {
                         if (task == 1) {
@@ -115,11 +115,11 @@ TEST_CASE("workers: a task that takes too long is killed, while others continue"
                     {.timeout_s = 0.3, .memory = {}});
     const auto ends = all(workers, 20);
     CHECK(ends.at(0).kind == TaskEnd::died);
-    CHECK(ends.at(0).text == "the run took longer than 0.3 s");
+    CHECK(ends.at(0).text == "the run took longer than 0.3 s, the limit of --timeout");
     for (std::uint64_t task = 1; task < 20; ++task) CHECK(ends.at(task).text == "well");
 }
 
-TEST_CASE("workers: a task that needs too much memory fails alone") {
+TEST_CASE("workers: a task that needs too much memory fails, and other tasks continue") {
     if (test::has_address_sanitizer) return;  // whose shadow memory is more than any limit
     Workers workers(
         1,

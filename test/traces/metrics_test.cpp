@@ -81,7 +81,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "metrics: unicasts do not count in saved_rebroadcasts, which is empty without broadcasts") {
+    "metrics: unicasts do not count in saved_rebroadcasts, which has no value without broadcasts") {
     Measured run;
     for (int i = 0; i < 3; ++i) run.place(Vec3{10.0 * i, 0, 0});
     const auto unicast = run.messages.add(
@@ -130,7 +130,8 @@ TEST_CASE("metrics: robots count as destinations only of messages sent after the
     CHECK(run.values().delivery_ratio == 2.0 / (3 + 4));
 }
 
-TEST_CASE("metrics: a single robot has no destination") {
+TEST_CASE(
+    "metrics: messages of a single robot have no destination, so there is no delivery ratio") {
     Measured run;
     run.place(Vec3{});
     run.send(at(0), a, 2, 64, 0);
@@ -203,7 +204,7 @@ TEST_CASE("metrics: every reason of a drop is counted under its own code") {
 }
 
 TEST_CASE(
-    "metrics: counts of a message do not count for a control packet in the same table entry") {
+    "metrics: the counts of a message are not used for a control packet in the same table entry") {
     Measured run;
     for (int i = 0; i < 3; ++i) run.place(Vec3{10.0 * i, 0, 0});
     const auto m = run.send(at(0), a, 2, 64, 2);
@@ -248,8 +249,8 @@ TEST_CASE("metrics: a robot's number of messages includes messages to it that di
 }
 
 TEST_CASE(
-    "metrics: a message cut off by the end of the run counts in the messages of its flow and of "
-    "its destination") {
+    "metrics: a message that the end of the run cuts off still counts in the messages of its flow "
+    "and of its destination") {
     Stream run;
     const auto metrics =
         std::make_shared<Metrics>(start_of_run, MetricParts{.flows = true, .robots = true});

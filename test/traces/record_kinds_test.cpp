@@ -175,8 +175,8 @@ TEST_CASE("kinds of records: fields() describes every data member of each kind o
 }
 
 TEST_CASE(
-    "kinds of records: a change of a field changes bytes, text and fingerprint as its description "
-    "says") {
+    "kinds of records: a change of a field changes bytes, text and fingerprint as the field's "
+    "description says") {
     const World world;
     for_each_kind(
         [&]<class R>() {

@@ -113,8 +113,8 @@ TEST_CASE("rows: the rows of each kind of record have the expected columns and c
 }
 
 TEST_CASE(
-    "rows: the robot in a link's row is the receiver; a movement's row has the position at its "
-    "time") {
+    "rows: the robot in a link's row is the receiver; a movement's row has the position at the "
+    "row's time") {
     const auto rows = std::make_shared<RowSink>(kind_all);
     Stream stream;
     stream.sinks = {rows};

@@ -162,7 +162,8 @@ TEST_CASE("move convert: the positions in a written movement file equal those in
         2);
 }
 
-TEST_CASE("move convert: ns-2 files keep numbers of nodes, and a notice lists changed names") {
+TEST_CASE(
+    "move convert: from ns-2 to ns-2, node numbers stay the same; a notice lists changed names") {
     const TemporaryFolder folder;
     folder.write("five.tcl", "$node_(5) set X_ 1\n");
     folder.write("v.xml",
@@ -181,7 +182,7 @@ TEST_CASE("move convert: ns-2 files keep numbers of nodes, and a notice lists ch
           std::string::npos);
 }
 
-TEST_CASE("scene: a file without a map and without robots is refused") {
+TEST_CASE("scene: a file with neither a map nor robots is refused") {
     const TemporaryFolder folder;
     for (const std::string text : {"", "# nothing\n", "[radio]\nrate = \"1 Mb/s\"\n"}) {
         const Ended empty = command(folder, {"scene", folder.write("empty", text)});
@@ -192,7 +193,8 @@ TEST_CASE("scene: a file without a map and without robots is refused") {
     }
 }
 
-TEST_CASE("scene: an image without a size is refused; with a size it is described") {
+TEST_CASE(
+    "scene: an image is refused without --size; with --size, its walls and free area are printed") {
     const TemporaryFolder folder;
     folder.write("m.png", wall_picture());
     const Ended without = command(folder, {"scene", folder.path("m.png")});
@@ -261,7 +263,7 @@ TEST_CASE("worlds: a Stage world is accepted as FILE by every command") {
 }
 
 TEST_CASE(
-    "worlds: the error for a missing bitmap lists the paths tried; --bitmap gives another file") {
+    "worlds: the error for a missing bitmap lists the paths tried; --bitmap names a replacement") {
     const TemporaryFolder folder;
     folder.write("other.png", hall_picture());
     folder.write("w.world", world);

@@ -102,7 +102,7 @@ TEST_CASE("where: the gaps of a robot (times without a link) are printed as text
 }
 
 TEST_CASE(
-    "where: --robot prints the path of one robot; a call without a robot and a time is refused") {
+    "where: --robot prints the path of a robot; a call with neither --robot nor --at is refused") {
     const TemporaryFolder folder;
     folder.write("pair.toml", pair);
     const Json times =

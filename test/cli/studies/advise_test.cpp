@@ -165,7 +165,7 @@ TEST_CASE("advise: a metric without bounds needs --tolerance, and is tested by S
     CHECK(json["advice"].get<std::string>().find("by Student's intervals") != std::string::npos);
 }
 
-TEST_CASE("advise: errors in options say what was expected") {
+TEST_CASE("advise: the error for an invalid option says what was expected") {
     const Advised advised;
     const auto error = [&](const std::vector<std::string>& more) {
         std::vector<std::string> words = {"advise", advised.file};

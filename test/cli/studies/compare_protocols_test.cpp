@@ -180,7 +180,7 @@ TEST_CASE("compare --protocols: unknown names, or fewer than two protocols, are 
     CHECK(refusal(words).find("excludes") != std::string::npos);
 }
 
-TEST_CASE("compare: a study that varies the protocol needs no option --protocols") {
+TEST_CASE("compare: if the study varies the protocol, the option --protocols is not needed") {
     const TemporaryFolder folder;
     const std::string file = folder.write(
         "s.toml",

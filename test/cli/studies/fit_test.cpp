@@ -69,8 +69,8 @@ std::string levels_by(const std::vector<std::string>& receivers) {
 }  // namespace
 
 TEST_CASE(
-    "fit: prints which column divides the links into groups; with one group, errors are those on "
-    "the links used for the fit") {
+    "fit: prints the column that divides the links into groups; with one group, errors are marked "
+    "as in-sample") {
     const TemporaryFolder folder;
     const std::string file = folder.write("talkers.toml", talkers);
     const auto fitted = [&](const std::vector<std::string>& receivers) {

@@ -45,8 +45,7 @@ at = ["14 m", "4.5 m"]
 }  // namespace
 
 TEST_CASE(
-    "probe: with the model `disc`, the effect on a link is given with a distance, without a "
-    "level") {
+    "probe: with the model `disc`, an affected link is printed with its distance, without levels") {
     const TemporaryFolder folder;
     const Ended ended = command(folder, {"probe", folder.write("rim.toml", rim)});
     CHECK(ended.exit == 0);

@@ -131,7 +131,7 @@ TEST_CASE(
     cluster.folder.write("bin/lost", "1");
     CHECK(cluster.submit().exit == 0);
     CHECK(has(cluster.said("merge"),
-              "/shards/1.db: there is no such file; expected the store of a shard"));
+              "/shards/1.db: there is no such file; expected a store that sweep --shard wrote"));
     CHECK(has(cluster.said("merge"), "7 runs are finished, 0 failed, 5 are left"));
     CHECK(has(cluster.said("merge"), "exit 4\n"));
     fs::remove(cluster.folder.path("bin/lost"));
@@ -191,7 +191,7 @@ TEST_CASE("sweep on Slurm: with --json the output of each call is one JSON docum
     CHECK(Json::parse(cluster.submit({"--json"}).out)["tasks"] == 0);
 }
 
-TEST_CASE("sweep on Slurm: a dry run deletes nothing, and the printed command has no --fresh") {
+TEST_CASE("sweep on Slurm: a dry run deletes nothing; the command for missing runs lacks --fresh") {
     const Cluster cluster;
     CHECK(cluster.sweep({"--shard", "0", "--chunk", "5"}).exit == 0);
     const std::string kept = cluster.csv();
@@ -253,8 +253,9 @@ TEST_CASE(
     }
     const Ended part = cluster.sweep({"--json", "--merge", "0.db", "none.db"});
     CHECK(part.exit == 4);
-    CHECK(
-        has(part.err, "not merged: none.db: there is no such file; expected the store of a shard"));
+    CHECK(has(
+        part.err,
+        "not merged: none.db: there is no such file; expected a store that sweep --shard wrote"));
     const Json json = Json::parse(part.out);
     CHECK(json["finished"] == 6);
     CHECK(json["left"] == 6);

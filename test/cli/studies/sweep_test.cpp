@@ -134,7 +134,7 @@ TEST_CASE("sweep: if points miss the required precision, they are listed, and th
                                              "--precision", "0.01",     "--max-replications", "4"};
     const Ended ended = command(place.folder, wanted);
     CHECK(ended.exit == 4);
-    CHECK(ended.err.find("5 of 5 points did not reach the precision 0.01 of delivery_ratio within "
+    CHECK(ended.err.find("5 of 5 points did not reach the precision 0.01 for delivery_ratio within "
                          "4 replications:\n  propagation.range=10 m: +- 0.") != std::string::npos);
     CHECK(ended.err.find(" from 4 values\n") != std::string::npos);
     auto as_json = wanted;
@@ -236,7 +236,8 @@ TEST_CASE("sweep: a second Ctrl-C ends the sweep without waiting for its runs") 
 }
 
 TEST_CASE(
-    "sweep: a sweep that is killed 50 times loses and repeats no run, and gives the same results") {
+    "sweep: if a sweep is killed 50 times, no finished run is lost or repeated, and the results do "
+    "not change") {
     const std::vector<std::string> slow = {"--set", "scenario.duration=30"};
     const auto sweep_of = [&](const Place& p) {
         return std::vector<std::string>{"sweep", p.file, slow[0], slow[1]};
@@ -355,7 +356,7 @@ TEST_CASE(
     for (const auto& [id, making] : kept) CHECK(all.at(id) == making);
 }
 
-TEST_CASE("sweep: a store that cannot be written is an error before any run") {
+TEST_CASE("sweep: if the store cannot be written, the sweep fails before its first run") {
     const Place place;
     const Ended ended = command(place.folder, {"sweep", place.file, "--store", "/proc/s.db"});
     CHECK(ended.exit == 1);
@@ -412,7 +413,7 @@ TEST_CASE("plot: --y-title sets the title of the y axis for each metric") {
           std::string::npos);
 }
 
-TEST_CASE("results: an unfinished study is marked, and a missing run is counted in its row") {
+TEST_CASE("results: an unfinished study is marked, and each row has its number of missing runs") {
     const Place place;
     const std::string plan = "study.replications=3";
     command(place.folder, {"sweep", place.file, "--set", plan, "--shard", "0", "--chunk", "12"});
@@ -451,7 +452,7 @@ TEST_CASE("results: options that exclude each other are refused") {
 }
 
 TEST_CASE(
-    "compare: keys that are not compared have the scenario's value; invalid names are refused") {
+    "compare: keys that are not compared keep the scenario's value; invalid names are refused") {
     const Place place(chatter + "vary.routing.ttl = [1, 2]\n");
     const std::vector<std::string> models = {"compare", place.file, "--replications", "5"};
     const auto with = [&](std::vector<std::string> more) {
@@ -461,7 +462,7 @@ TEST_CASE(
     };
     const Ended made = with({"--models", "disc,friis"});
     CHECK(made.exit == 0);
-    CHECK(made.out.find("kept at the values of the file: propagation.range = 30 m, "
+    CHECK(made.out.find("kept at the values of the scenario file: propagation.range = 30 m, "
                         "routing.ttl = ") != std::string::npos);
     const Ended twice = with({"--models", "disc,disc"});
     CHECK(twice.exit == 2);
@@ -513,8 +514,7 @@ TEST_CASE("compare: runs in the store of a sweep are used, and new runs are adde
     CHECK(finished(place.store()).size() == 25);
 }
 
-TEST_CASE(
-    "compare: for values that the store has, its runs are used; runs of other values are added") {
+TEST_CASE("compare: if a store lacks runs of some compared values, only these runs are added") {
     const Place place;
     CHECK(command(place.folder, {"sweep", place.file, "--replications", "3"}).exit == 0);
     const std::size_t before = finished(place.store()).size();

@@ -92,7 +92,7 @@ TEST_CASE(
           std::string::npos);
 }
 
-TEST_CASE("replay --as sets the radio with which the radios of --with are compared") {
+TEST_CASE("replay --as sets the baseline radio, with which the radios of --with are compared") {
     const TemporaryFolder folder;
     const std::vector<std::string> words = {"replay", sample,         "--as", "radio.power=40 dBm",
                                             "--with", "routing.ttl=2"};
@@ -144,7 +144,8 @@ TEST_CASE(
     CHECK(alone.err.find("there is no") != std::string::npos);
 }
 
-TEST_CASE("replay --verify of a folder without a log of a live run asks for a trace") {
+TEST_CASE(
+    "replay --verify: for a folder without the log of a live run, the error asks for a trace") {
     const TemporaryFolder folder;
     const Ended ended =
         command(folder, {"replay", run_two(folder, "trace.record=true"), "--verify"});

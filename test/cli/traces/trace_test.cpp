@@ -66,7 +66,7 @@ TEST_CASE("trace follow --json: an ns-2 trace and a recorded trace of a run give
         "B was never in range: the only frame came 2.7 dB below the sensitivity of the receiver.");
 }
 
-TEST_CASE("trace follow needs no scenario to print what an ns-2 trace says about a robot") {
+TEST_CASE("trace follow: for an ns-2 trace, the option --robot works without a scenario") {
     const Run run;
     const Ended ended =
         command(run.folder, {"trace", "follow", run.text, "--message", "0", "--robot", "B"});
@@ -98,7 +98,8 @@ TEST_CASE("trace stats prints whether a trace is recorded or in a format of ns-2
     CHECK(json_of(run.folder, {"trace", "stats", run.text})["format"] == "old");
 }
 
-TEST_CASE("trace stats of a recorded trace has the metrics of the summary, also those of routing") {
+TEST_CASE(
+    "trace stats: metrics of a recorded trace equal those of the summary, also those of routing") {
     const std::string aodv =
         "[routing]\nprotocol = \"aodv\"\n[access]\nmodel = \"csma\"\n"
         "[[traffic]]\nkind = \"unicast\"\nfrom = \"n0\"\nto = \"n4\"\n"
@@ -142,7 +143,8 @@ TEST_CASE("trace convert, trace cut: the input file is refused as the output fil
     CHECK(content(run.recorded) == before);
 }
 
-TEST_CASE("trace follow: an ns-2 trace shows the names of robots that only the movement file has") {
+TEST_CASE(
+    "trace follow: robots of an ns-2 trace that only the movement file lists are found by name") {
     const TemporaryFolder folder;
     folder.write("scen.tcl", "$node_(0) set X_ 1.0\n$node_(3) set X_ 9.0\n");
     const std::string file = folder.write(

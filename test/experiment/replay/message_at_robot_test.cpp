@@ -111,7 +111,8 @@ TEST_CASE(
     CHECK(gated.says(0, 2).starts_with("X is in a different network"));
 }
 
-TEST_CASE("message at a robot: a collision names the other frames on air and their levels") {
+TEST_CASE(
+    "message at a robot: for a collision, the other frames on air are listed with their levels") {
     // A and C send at once, and B, in their middle, hears both alike.
     const Run run({0, 200, 400},
                   "[reception]\nmodel = \"collision\"\n" + one_message +

@@ -171,8 +171,8 @@ TEST_CASE("replay of an ns-2 trace: lines that are not in ns-2 format are counte
 }
 
 TEST_CASE(
-    "replay of an ns-2 trace: for a reception beyond the range, a notice names a sufficient "
-    "power") {
+    "replay of an ns-2 trace: if a recorded reception is beyond the range, a notice names a "
+    "sufficient power") {
     const TemporaryFolder folder;
     const auto day_of = [&](double metres) {
         const std::string heard =
@@ -191,8 +191,8 @@ TEST_CASE(
     const std::string told = far.hears_farther({});
     CAPTURE(told);
     // 40 log10(397 / 250) = 8.03 dB over flat ground.
-    CHECK(told.find("n1 received a frame of n0 over 397 m at 1.005000 s, but with the first radio "
-                    "of the replay, the received power is 8.0 dB below") != std::string::npos);
+    CHECK(told.find("n1 received a frame of n0 over 397 m at 1.005000 s, but with the radio of "
+                    "this row, the received power is 8.0 dB below") != std::string::npos);
     CHECK(told.find("--as \"radio.power=32.6 dBm\"") != std::string::npos);
     CHECK(deliveries(far, {"radio.power=32.6 dBm"}) == 1);
     CHECK(far.hears_farther({"radio.power=32.6 dBm"}).empty());

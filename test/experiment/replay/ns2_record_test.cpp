@@ -17,8 +17,7 @@ namespace ns2_record_test {
 using namespace rovernet;
 using namespace rovernet::testing;
 
-TEST_CASE(
-    "an ns-2 trace converted to records keeps metrics, and positions and airtimes of the run") {
+TEST_CASE("an ns-2 trace that is converted to a recorded trace keeps its metrics and positions") {
     const TempFolder folder;
     RunOptions to;
     to.folder = folder / ".";
@@ -61,7 +60,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "for an ns-2 trace, the notice that lost frames are missing appears only without MAC lines") {
+    "if an ns-2 trace has no MAC lines, and only then, a notice says that it lacks lost frames") {
     for (const bool mac : {false, true}) {
         CAPTURE(mac);
         const TempFolder folder;

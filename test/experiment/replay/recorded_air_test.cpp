@@ -148,7 +148,8 @@ TEST_CASE("recorded air: levels and times of all receptions equal those of the r
     }
 }
 
-TEST_CASE("recorded air: robots that are off are known, and each frame is removed when it ends") {
+TEST_CASE(
+    "recorded air: a robot is switched off and on as in the run, and ended frames are removed") {
     const Run run("");
     RecordedReader trace(run.recorded);
     RecordedAir air(LoadedRun(trace.run(), run.recorded));

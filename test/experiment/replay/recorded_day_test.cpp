@@ -81,8 +81,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "replay of a recorded trace: a weaker radio loses deliveries, and the recorded power loses "
-    "none") {
+    "replay of a recorded trace: a weaker radio loses deliveries; the recorded power gives the "
+    "recorded metrics") {
     const TemporaryFolder folder;
     const RecordedDay day(record(folder, busy_day));
     const PlayedDay weak = day.play({"radio.power=-30 dBm"});

@@ -251,7 +251,7 @@ size = "900 B"
 }  // namespace
 
 TEST_CASE(
-    "recorded trace: for real runs, counts and message paths from records and text are equal") {
+    "recorded trace: counts and message paths of a run equal those of the same trace in text") {
     for (const std::string access : {"csma\"\nrts_threshold = \"300 B", "csma", "aloha"}) {
         CAPTURE(access);
         const TempFolder folder;
@@ -265,7 +265,8 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("recorded trace: for random records, counts and paths from records and text are equal") {
+TEST_CASE(
+    "recorded trace: counts and paths of random records equal those of the same trace in text") {
     const TempFolder folder;
     for (unsigned seed = 0; seed < 6; ++seed) {
         CAPTURE(seed);
@@ -296,7 +297,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "recorded trace: if chunks are damaged, records and text still give equal counts and paths") {
+    "recorded trace: if chunks are damaged, counts and paths still equal those of the same trace "
+    "in text") {
     const TempFolder folder;
     const std::string path = folder / "trace.mcap";
     record(path, [](Stream& stream) { OddRecords(stream, 1, 0).run(900); });

@@ -167,7 +167,7 @@ TEST_CASE("a run can be repeated from a trace of format 4, which lacks sizes of 
 }
 
 TEST_CASE(
-    "if the scenario no longer reproduces its trace, the recorded and the new line are shown") {
+    "if the scenario no longer reproduces its trace, the line that differs is shown, old and new") {
     const RecordedRunOf run(examples + "/patrol/patrol.toml", {"scenario.duration=30 s"});
     std::string bytes = content(run.trace);
     const auto at = bytes.find("seed = 3");
@@ -212,7 +212,8 @@ TEST_CASE("a run on several storeys can be repeated from its recorded trace with
     CHECK_FALSE(verify_replay(run.trace, {}).difference);
 }
 
-TEST_CASE("a reader in Python, written from docs/formats/trace-format.md, reads the same records") {
+TEST_CASE(
+    "a reader in Python, written from docs/formats/trace-format.md, reads what rovernet reads") {
     if (std::system("python3 --version > /dev/null && zstd --version > /dev/null") != 0) {
         MESSAGE("python3 or zstd is missing: not checked");
         return;

@@ -120,8 +120,7 @@ TEST_CASE("the text of a recorded run with AODV or DSR equals its ns-2 trace, by
 }
 
 TEST_CASE(
-    "a recorded trace of format 4, which lacks sizes of frames, gives a text with control "
-    "packets") {
+    "the text of a trace of format 4, which lacks sizes of frames, contains routing packets") {
     const std::string path = std::string(ROVERNET_TEST_DATA) + "/recorded_format4.mcap";
     const std::string text = all_of(old_with_mac(path).text());
     CHECK(text.find("[0x2 1 1 [1 0] [0 1]] (REQUEST)\n") != text.npos);

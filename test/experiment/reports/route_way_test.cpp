@@ -86,8 +86,7 @@ TEST_CASE("route path: the path ends at a robot without a route, or with a broke
 }
 
 TEST_CASE(
-    "route path: the first hop that is not heard breaks the path; later hops follow routing "
-    "tables") {
+    "route path: the path breaks at the first hop that is not heard; later hops are still listed") {
     const Row far({{0, {route(4, 2, 2)}}, {2, {route(4, 3, 2)}}, {3, {route(4, 4, 1)}}});
     const RouteWay way = far.way(4);
     REQUIRE(way.hops.size() == 3);
@@ -108,7 +107,8 @@ TEST_CASE("route path: a path in a routing loop ends where the loop closes") {
     CHECK(way.reason == "the route leads back to this robot");
 }
 
-TEST_CASE("route path: a source route is followed, whatever the tables contain") {
+TEST_CASE(
+    "route path: a source route is followed, whatever the routing tables of other robots contain") {
     RouteState known = route(3, 1, 3);
     known.path = {NodeId{1}, NodeId{2}, NodeId{3}};
     const Row row({{0, {known}}, {1, {route(3, 4, 9)}}});

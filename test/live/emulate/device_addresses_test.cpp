@@ -93,7 +93,7 @@ TEST_CASE(
 TEST_CASE("device addresses: network and broadcast addresses are refused for hosts") {
     CHECK(fault(two("", "ip = \"10.0.0.0\""))
               .starts_with("s.toml:12:16: robot B: the ip 10.0.0.0 is the address of the network "
-                           "10.0.0.0/24; "));
+                           "10.0.0.0/24, not of a host; "));
     CHECK(fault(two("", "ip = \"10.0.0.255\"")).find("is the broadcast address of") !=
           std::string::npos);
     // The address is made, the netmask is not.
@@ -128,7 +128,7 @@ TEST_CASE("device addresses: robots in different IP networks give a notice") {
     const auto first = notices(two("ip = \"192.168.1.1\"", ""));
     REQUIRE(first.size() == 1);
     CHECK(first[0].ends_with(
-        "s.toml:8:16: the network 192.168.1.0/24 of robot A does not contain robot B, 10.0.0.2: "
+        "s.toml:8:16: the network 192.168.1.0/24 of robot A does not contain robot B (10.0.0.2): "
         "packets between these robots need routes that you set (ip route)"));
     const auto second = notices(two("", "ip = \"10.0.1.2\""));
     REQUIRE(second.size() == 1);
@@ -156,7 +156,7 @@ TEST_CASE("device addresses: a network with fewer addresses than robots gives a 
     const auto told = robots(260, "");
     REQUIRE(told.size() == 2);
     CHECK(told[0].starts_with("robot X254: the ip 10.0.0.255 is the broadcast address of the "));
-    CHECK(told[1].starts_with("the network 10.0.0.0/24 of robot X0 does not contain robot X255, "));
+    CHECK(told[1].starts_with("the network 10.0.0.0/24 of robot X0 does not contain robot X255 ("));
     CHECK(robots(260, "netmask = \"255.255.0.0\"").empty());
 }
 

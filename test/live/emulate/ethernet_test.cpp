@@ -64,7 +64,8 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("ethernet: with csma a unicast is acknowledged and repeated, a broadcast is not") {
+TEST_CASE(
+    "ethernet: with the model `csma`, a unicast is acknowledged and repeated, a broadcast is not") {
     const std::string lossy =
         "[access]\nmodel = \"csma\"\n[[robot]]\nname = \"D\"\n"
         "at = [\"0 m\", \"150 m\"]\nradio = { success_rate = 0.5 }\n";

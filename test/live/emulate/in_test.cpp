@@ -117,7 +117,7 @@ const std::vector<std::string> stubborn = {"sh", "-c",
 
 }  // namespace
 
-TEST_CASE("rovernet in: root enters the network of another user's run only with --user") {
+TEST_CASE("`rovernet in`: root enters the network of another user's run only with --user") {
     if (!is_root()) return;
     const std::string robot = "Q" + std::to_string(getpid());
     const Stranger squatter([&] { return hand_out_own_network(robot); });
@@ -143,7 +143,7 @@ TEST_CASE("rovernet in: root enters the network of another user's run only with 
     CHECK(try_in({"--user", "no such user"}).exit == 2);
 }
 
-TEST_CASE("rovernet in: a user cannot enter another user's run, with or without --user") {
+TEST_CASE("`rovernet in`: a user cannot enter another user's run, with or without --user") {
     if (!is_root()) return;
     const std::string robot = "Q" + std::to_string(getpid());
     const int listener = open_listener(getpid(), robot);
@@ -202,7 +202,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "rovernet in: if several runs have the robot, --run with a folder or a process is needed") {
+    "`rovernet in`: if several runs have the robot, --run with a folder or a process is needed") {
     const auto one = emulated_by_tap();
     const auto other = one ? emulated_by_tap() : nullptr;
     if (!other) return;
@@ -248,7 +248,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "rovernet in: when the run ends, programs started in its robots end too, with a message") {
+    "`rovernet in`: when the run ends, programs started in its robots end too, with a message") {
     for (const std::string how : {"interrupted", "killed", "killed with its keeper"}) {
         CAPTURE(how);
         const auto run = emulated_by_tap();
@@ -272,7 +272,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("rovernet in: when the run ends, a program started in a robot has time to clean up") {
+TEST_CASE("`rovernet in`: when the run ends, a program started in a robot has time to clean up") {
     const auto run = emulated_by_tap();
     if (!run) return;
     const TemporaryFolder folder;
@@ -288,7 +288,7 @@ TEST_CASE("rovernet in: when the run ends, a program started in a robot has time
 }
 
 TEST_CASE(
-    "rovernet in: the exit code is that of the program, and signals are passed to the program") {
+    "`rovernet in`: the exit code is that of the program, and signals are passed to the program") {
     const auto run = emulated_by_tap();
     if (!run) return;
     const TemporaryFolder folder;

@@ -46,7 +46,7 @@ bool has_ping() {
 }  // namespace
 
 TEST_CASE(
-    "emulate: pings of the kernel pass over the simulated radio, and the replay needs no pings") {
+    "emulate: pings of the kernel use the simulated radio, and the run is replayed without pings") {
     const auto run = has_ping() ? emulated_by_tap() : nullptr;
     if (!run) return;
     const std::vector<double> times = ping(*run, "A", "10.0.0.2", 20);
@@ -126,7 +126,7 @@ TEST_CASE("emulate: a killed run leaves no listener of a robot behind") {
     CHECK_FALSE(has_listeners(run->pid()));
 }
 
-TEST_CASE("rovernet in: a run, a robot or a program that does not exist is refused") {
+TEST_CASE("`rovernet in`: a run, a robot or a program that does not exist is refused") {
     const TemporaryFolder folder;
     const auto try_in = [&](std::vector<std::string> words) {
         words.insert(words.begin(), "in");

@@ -48,7 +48,8 @@ const std::string to_b = "RN\x01\x00\x01\x00\x00\x00"s;
 
 }  // namespace
 
-TEST_CASE("emulate --udp: programs reach robots in range, and the replay needs no programs") {
+TEST_CASE(
+    "emulate --udp: programs reach robots in range, and the run is replayed without the programs") {
     Emulation emulation(scenario, {"--udp", "127.0.0.1:0", "--late", "60 s"});
     const std::vector<int> ports = emulation.ports(4);
     const Datagrams a(ports[0]), b(ports[1]), c(ports[2]);

@@ -324,8 +324,8 @@ TEST_CASE("lockstep: a robot placed elsewhere rests, with the given heading or i
 }
 
 TEST_CASE(
-    "lockstep: a position without room and a goal off the map are errors; the state reports a goal "
-    "without a path") {
+    "lockstep: a position where the robot does not fit, or a goal off the map, is an error; a goal "
+    "without a path is reported") {
     Talk talk(load_scenario(ROVERNET_EXAMPLES "/rescue/rescue.toml", {}));
     talk.say(0, hello_a);
     for (const char* place : {"[-5,3]", "[24,100]", "[2,6]"}) {
@@ -447,7 +447,8 @@ TEST_CASE("lockstep: a robot climbs stairs to its goal, and its height is sent")
           Vec3{13.2, 2, 3});
 }
 
-TEST_CASE("lockstep: without storeys, heights are sent if any height is not 0") {
+TEST_CASE(
+    "lockstep: in a scenario without storeys, heights are sent only if a robot's height is not 0") {
     Talk objects(three_in_a_row()), lists(three_in_a_row());
     objects.say(0, R"({"type":"hello","protocol":1,"robots":["A","B"],"step":"1 s"})");
     lists.say(0, R"({"type":"hello","protocol":1,"robots":["A","B"],"step":"1 s","columns":true})");

@@ -103,7 +103,8 @@ TEST_CASE("stepped run: replay of the input log reproduces the run") {
     CHECK_FALSE(replay.is_other_scenario);
 }
 
-TEST_CASE("stepped run: an interrupted step continues, and the log reproduces the run") {
+TEST_CASE(
+    "stepped run: an interrupted step can be continued, and the input log reproduces the run") {
     const TemporaryFolder folder;
     SteppedRun run(three_in_a_row(), {.step = 1s, .folder = folder.path("run")});
     run.command(0, SendCommand{.payload = "a"});
@@ -118,8 +119,8 @@ TEST_CASE("stepped run: an interrupted step continues, and the log reproduces th
 }
 
 TEST_CASE(
-    "stepped run: poses have a row per robot, lie on the driven arc, and keep their memory "
-    "address") {
+    "stepped run: the array of poses has a row per robot, follows the driven arc, and keeps its "
+    "memory address") {
     SteppedRun run(three_in_a_row(), {.robots = std::vector<std::string>{"C", "A"}});
     const double* pose = run.poses().data();
     CHECK(pose[0] == 300);
@@ -160,11 +161,11 @@ TEST_CASE("stepped run: a run ends at the end of the scenario, and can then be r
     CHECK(step(run));  // the rest of 500 ms
     CHECK(run.is_done());
     CHECK(run.session().network().now() == start_of_run + 2s);
-    CHECK(refusal([&] { step(run); }) == "the run is at its end; expected a reset or a finish");
+    CHECK(refusal([&] { step(run); }) == "the run is at its end; expected reset() or finish()");
     CHECK(run.finish().simulated == 2s);
     CHECK(run.is_over());
-    CHECK(refusal([&] { step(run); }) == "the run is over; expected a reset first");
-    CHECK(refusal([&] { run.finish(); }) == "the run is over; expected a reset first");
+    CHECK(refusal([&] { step(run); }) == "the run is over; expected reset() first");
+    CHECK(refusal([&] { run.finish(); }) == "the run is over; expected reset() first");
     run.reset(3);
     CHECK(run.scenario().scenario.seed == 3);
     CHECK(step(run));
@@ -181,7 +182,7 @@ TEST_CASE("stepped run: numbers out of range are refused without effect") {
           "turn rate of robot B must be from -1000 to 1000 rad/s, got -1e+300");
     CHECK(refusal([&] {
               run.drive(std::vector<double>{1, 1});
-          }) == "expected velocities of shape (3, 2)");
+          }) == "expected an array of velocities with the shape (3, 2)");
     CHECK(refusal([&] { run.drive(std::vector<double>(6, 0.0), Duration{0}); }) ==
           "timeout of robot A must be > 0 s");
     CHECK(refusal([&] {

@@ -76,7 +76,8 @@ TEST_CASE("player configuration: blanks in an address and lists over several lin
     CHECK(config.notices.empty());
 }
 
-TEST_CASE("player configuration: a comdriver or relay belongs to the robot whose radio it uses") {
+TEST_CASE(
+    "player configuration: a `comdriver` or `relay` belongs to the robot whose radio it uses") {
     const PlayerConfig config = read(head + R"(
 driver ( name "comdriver" provides [ "6666:opaque:3" ] requires [ "6666:wifi:1" "6666:opaque:2" ]
          mapping [ "192.168.0.1" 6665

@@ -309,7 +309,8 @@ TEST_CASE("player: a client sets and resets the odometry, and places a robot els
     }
 }
 
-TEST_CASE("player: an unknown device is refused, and no message `SYNCH` is sent without data") {
+TEST_CASE(
+    "player: an unknown device is refused, and a message `SYNCH` is sent only together with data") {
     PlayerTalk talk(player_scenario(pair));
     const auto client = talk.come();
     const auto refused = talk.ask(client, mode(pull) + device(23, 9));

@@ -71,7 +71,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "rosbridge clock: of the steps of clients that have left, only the last end time is kept") {
+    "rosbridge clock: if clients leave during steps, only the latest end of these steps is kept") {
     RosClock clock;
     CHECK(clock.pause(1, start_of_run).empty());
     for (RosClock::Connection client = 2; client < 1000; ++client) {

@@ -129,8 +129,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "rosbridge: a throttled topic with a queue keeps the newest messages; without a queue, it "
-    "drops early messages") {
+    "rosbridge: a throttled topic with a queue keeps the newest messages; without a queue, "
+    "messages that come too early are dropped") {
     RosTalk talk(three_in_a_row());
     talk.subscribe("/B/radio/received", {{"throttle_rate", 500}, {"queue_length", 2}});
     talk.come(1);

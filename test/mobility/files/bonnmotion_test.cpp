@@ -124,7 +124,8 @@ TEST_CASE("bonnmotion: positions with z are recognised by the number of values i
     CHECK(near(p.position("n0", 5), {6, 2, 8}));
 }
 
-TEST_CASE("bonnmotion: twelve values are 2-D positions if their times then ascend, otherwise 3-D") {
+TEST_CASE(
+    "bonnmotion: 12 values in a line are read as 2-D positions if the times ascend, else as 3-D") {
     CHECK(near(played("0 5 5 1 6 6 2 7 7 3 8 8\n").position("n0", 3), {8, 8, 0}));
     CHECK(near(played("0 9 9 1 5 8 8 2 9 7 7 3\n").position("n0", 9), {7, 7, 3}));
     // One line decides for all.

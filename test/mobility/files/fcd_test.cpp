@@ -99,7 +99,8 @@ TEST_CASE("fcd: if the first timestep is after the start, its robots appear only
     CHECK(near(p.position("a", 1.5), {7, 0, 0}));
 }
 
-TEST_CASE("fcd: persons and containers become robots, with z, and may rest between timesteps") {
+TEST_CASE(
+    "fcd: persons and containers become robots, keep their z, and may rest between timesteps") {
     const auto p = played(
         fcd(step("0",
                  "<person id='p' y='1' x='2' z='3.5' edge='e'/><container id='c' x='0' "
@@ -232,7 +233,7 @@ TEST_CASE(
     CHECK(wrong == 0);
 }
 
-TEST_CASE("fcd: the end of a comment may cross two of the blocks in which the file is read") {
+TEST_CASE("fcd: the file is read in blocks; the end mark --> of a comment may lie in two of them") {
     const std::size_t portion = 64 * 1024;
     for (std::size_t n = portion - 100; n < portion + 3; ++n) {
         const std::string comment = "<!--" + std::string(n, 'x') + "-->\n";
@@ -240,7 +241,7 @@ TEST_CASE("fcd: the end of a comment may cross two of the blocks in which the fi
     }
 }
 
-TEST_CASE("fcd: if many robots come and go, each name keeps its own motion") {
+TEST_CASE("fcd: while many robots come and go, each robot keeps its own motion") {
     std::mt19937 draw(2);
     std::string steps;
     std::vector<std::vector<int>> seen(300, std::vector<int>(40, 0));

@@ -33,7 +33,7 @@ const std::string starts = "$node_(0) set X_ 1\n$node_(1) set X_ 1\n";
 }  // namespace
 
 TEST_CASE(
-    "movement file: an ns-2 motion that begins or ends after 1e9 s is refused with its line") {
+    "movement file: for an ns-2 motion that begins or ends after 1e9 s, the error names the line") {
     const std::string at_late = "$ns_ at 2e9 \"$node_(0) setdest 5 5 1\"\n",
                       at_five = "$ns_ at 5 \"$node_(1) setdest 5 5 1\"\n",
                       slow = "$ns_ at 1 \"$node_(0) setdest 500 500 1e-7\"\n",
@@ -47,13 +47,13 @@ TEST_CASE(
     check_place("a.tcl", starts + at_five, 0, 0);
 }
 
-TEST_CASE("movement file: a BonnMotion waypoint after 1e9 s is an error with line and column") {
+TEST_CASE("movement file: for a BonnMotion waypoint after 1e9 s, the error names line and column") {
     check_place("a.movements", "0 0 0 2e9 5 5\n", 1, 7);
     check_place("a.movements", "0 0 0 5 5 5\n0 1 1 7 8 8 1.5e9 9 9 2e9 1 1\n0 0 0 4 4 4\n", 2, 23);
     check_place("a.movements", "0 0 0 1e9 5 5\n", 0, 0);
 }
 
-TEST_CASE("movement file: a SUMO timestep after 1e9 s is an error with its line") {
+TEST_CASE("movement file: for a SUMO timestep after 1e9 s, the error names the line") {
     const auto step = [](const std::string& time) {
         return "<timestep time=\"" + time +
                "\">\n<vehicle id=\"a\" x=\"1\" y=\"2\"/>\n</timestep>\n";

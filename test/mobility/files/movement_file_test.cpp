@@ -43,7 +43,8 @@ TEST_CASE("movement file: the format is recognised by the first bytes, not by th
     }
 }
 
-TEST_CASE("movement file: a file of another kind is refused, and the error lists the formats") {
+TEST_CASE(
+    "movement file: a file of an unknown format is refused; the error lists the known formats") {
     const std::string kinds =
         "a movement file: of ns-2 (setdest), of BonnMotion (.movements) or of SUMO (FCD, XML)";
     CHECK(error_of("") == "file: the file is empty, expected " + kinds);
@@ -75,7 +76,7 @@ TEST_CASE(
     CHECK(b.robots().size() == 1);
 }
 
-TEST_CASE("movement file: a file that changes while it is read is an input error") {
+TEST_CASE("movement file: if a file changes while it is read, this is an input error") {
     const TemporaryFolder folder;
     const std::string line = "$ns_ at 1 \"$node_(0) setdest 1 0 1\"\n";
     // Longer than what is read ahead.

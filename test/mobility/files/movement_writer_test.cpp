@@ -114,7 +114,7 @@ TEST_CASE("writer: tracks written as an ns-2 movement file are read back as the 
     CHECK(error_of(tracks, setdest_text(tracks, at(duration)), duration, true) < setdest_tolerance);
 }
 
-TEST_CASE("writer: an ns-2 movement file keeps the horizontal motion of climbing tracks") {
+TEST_CASE("writer: in an ns-2 movement file, climbing robots keep their horizontal motion") {
     const auto tracks = wanderers(20, duration, true);
     CHECK(error_of(tracks, setdest_text(tracks, at(duration)), duration, false) <
           setdest_tolerance);
@@ -135,7 +135,7 @@ TEST_CASE("writer: an ns-2 movement file has the expected lines") {
         {"c", {rest(0, {7, 7, 0}), leg(2.5, 6.5, {7, 7, 0}, {7, 9, 0})}}};
     CHECK(setdest_text(tracks, at(100)) ==
           "# nodes: 3, max x: 50.00, max y: 60.00\n"
-          "# ns-2 stops at a target outside of the field; write load_flatgrid 51 "
+          "# ns-2 ends with an error if a target is outside of the field; write load_flatgrid 51 "
           "61, or larger numbers\n"
           "# a -> $node_(0)\n"
           "# b -> $node_(1)\n"
@@ -156,14 +156,16 @@ TEST_CASE("writer: an ns-2 movement file has the expected lines") {
 }
 
 TEST_CASE(
-    "writer: positions with x or y not above 0, which ns-2 cannot use, are noted in the file") {
+    "writer: a comment in an ns-2 file warns if a position has an x or y that is not above 0") {
     const std::vector<Track> tracks = {{"a", {leg(0, 10, {0, 2, 0}, {-3.5, 2, 0})}}};
     CHECK(setdest_text(tracks, at(100))
-              .find("# ns-2 also stops at a target whose x or y is not above 0; the smallest x in "
-                    "this file is -3.50, the smallest y is 2.00\n") != std::string::npos);
+              .find("# ns-2 also ends with an error if x or y of a target is not above 0; the "
+                    "smallest x in this file is -3.50, the smallest y is 2.00\n") !=
+          std::string::npos);
 }
 
-TEST_CASE("writer: nodes of an ns-2 file keep their numbers, and other names are in comments") {
+TEST_CASE(
+    "writer: the robot n5 becomes node 5 of an ns-2 file; names of another form are in comments") {
     const auto numbers = [](const std::vector<std::string>& names) {
         std::vector<Track> tracks;
         for (const std::string& each : names) tracks.push_back({each, {rest(0, {1, 1, 0})}});
@@ -203,7 +205,7 @@ TEST_CASE("writer: a BonnMotion file has the expected positions and parameters")
     CHECK(bonnmotion_params(high, at(20)).find("J=3D\n") != std::string::npos);
 }
 
-TEST_CASE("writer: the .params file states that positions of a BonnMotion file have a z") {
+TEST_CASE("writer: the .params file states that BonnMotion positions have a z coordinate") {
     const TemporaryFolder folder;
     // A single node, three places in space: twelve numbers.
     const std::vector<Track> tracks = {
@@ -252,7 +254,7 @@ TEST_CASE("writer: a robot rests between two legs (pieces of movement), and afte
     CHECK(distance(p.position("n0", 8), {5, 5, 0}) < setdest_tolerance);
 }
 
-TEST_CASE("writer: a robot's jump is written as a jump in files for setdest and BonnMotion") {
+TEST_CASE("writer: a robot's jump is written as a jump in ns-2 and in BonnMotion files") {
     const std::vector<Track> tracks = {
         {"a",
          {leg(0, 10, {1, 1, 0}, {11, 1, 0}), leg(5, 10, {50, 60, 7}, {55, 60, 7}),

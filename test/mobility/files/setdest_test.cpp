@@ -102,7 +102,7 @@ TEST_CASE("setdest: four motions in a row lead a node around a square") {
     CHECK(near(p.velocity("n0", 5), {}));
 }
 
-TEST_CASE("setdest: start positions may follow the motions in the file, without a notice") {
+TEST_CASE("setdest: start positions may stand after the motions in the file, and cause no notice") {
     const std::string moves =
         "$ns_ at 1.0 \"$node_(0) setdest 10 2 1\"\n"
         "$ns_ at 2.0 \"$node_(1) setdest 1 1 1\"\n";
@@ -116,7 +116,7 @@ TEST_CASE("setdest: start positions may follow the motions in the file, without 
     CHECK(played(places + moves).file.end() == p.file.end());
 }
 
-TEST_CASE("setdest: a timed set of X_, Y_ or Z_ makes the robot jump in this coordinate") {
+TEST_CASE("setdest: setting X_, Y_ or Z_ at a given time makes the robot jump in this coordinate") {
     const auto p = played(
         "$ns_ at 1.0 \"$node_(0) set X_ 10\"\n"
         "$ns_ at 2.0 \"$node_(0) set Y_ 20\"\n"
@@ -251,7 +251,8 @@ TEST_CASE("setdest: impossible values are refused, or in tolerant mode skipped w
     CHECK(p.file.notices()[0].starts_with("14 lines are left out; the first: "));
 }
 
-TEST_CASE("setdest: robots have the node numbers of the file, and unused numbers give no robots") {
+TEST_CASE(
+    "setdest: robots have the node numbers of the file; unused numbers do not become robots") {
     const auto p = played(
         "$ns_ at 1 \"$node_(7) setdest 8 0 1\"\n"
         "$node_(3) set X_ 3\n"
@@ -353,7 +354,7 @@ TEST_CASE("setdest: six motions, some cut short, give the calculated positions (
     CHECK(p.file.end() == start_of_run + from_seconds(920));
 }
 
-TEST_CASE("setdest: commands to ns-2's object god are ignored") {
+TEST_CASE("setdest: commands to the object `god` of ns-2 are ignored") {
     const auto p = played(place_0 +
                           "$god_ set-dist 0 1 16777215\n"
                           "$ns_ at 3.9 \"$god_ set-dist 0 1 1\"\n");
@@ -404,7 +405,8 @@ TEST_CASE(
     CHECK(a.file.end() == b.file.end());
 }
 
-TEST_CASE("setdest: simultaneous commands keep the order of the file, also in an unsorted file") {
+TEST_CASE(
+    "setdest: simultaneous commands are executed in file order, also if the file is unsorted") {
     const std::string late = "$ns_ at 9 \"$node_(0) setdest 9 9 9\"\n";
     std::string same;
     for (int i = 0; i < 50; ++i) {
@@ -424,7 +426,7 @@ TEST_CASE("setdest: a motion whose target is never reached ends at the largest t
     CHECK(p.file.end() == start_of_run + from_seconds(9e9));
 }
 
-TEST_CASE("setdest: lines that cross the blocks in which the file is read are read correctly") {
+TEST_CASE("setdest: the file is read in blocks; a line that lies in two blocks is read correctly") {
     std::string text = place_0;
     for (int i = 0; text.size() < 1'000'000; ++i) {
         text += "$ns_ at " + std::to_string(i) + " \"$node_(0) setdest " + std::to_string(i) +
@@ -469,7 +471,7 @@ TEST_CASE("setdest: a damaged file is read or refused, without a crash") {
 }
 
 TEST_CASE(
-    "setdest: robots of a scenario written by CMU's setdest stay in the field of the scenario") {
+    "setdest: robots of a scenario written by CMU's setdest stay inside the scenario's area") {
     const char* folder = std::getenv("ROVERNET_MOVEMENTS");
     if (!folder) {
         MESSAGE("ROVERNET_MOVEMENTS is not set: skipped");

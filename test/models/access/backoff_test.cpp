@@ -60,7 +60,8 @@ TEST_CASE("backoff: a slot in which the medium becomes busy does not count") {
     CHECK(s.backoff.grant() == at(118));
 }
 
-TEST_CASE("backoff: with a backoff of 0 slots, access follows a DIFS after the last frame heard") {
+TEST_CASE(
+    "backoff: with a backoff of 0 slots, a station may send one DIFS after the last frame heard") {
     Station s;
     s.good_frame(20, 60);
     s.ask_while_busy(30, 0);
@@ -70,7 +71,8 @@ TEST_CASE("backoff: with a backoff of 0 slots, access follows a DIFS after the l
 }
 
 TEST_CASE(
-    "backoff: if the medium is idle at the request, access follows a DIFS after the request") {
+    "backoff: if the medium is idle at the request, a station may send one DIFS after the "
+    "request") {
     Station s;
     s.good_frame(20, 60);
     s.ask_while_idle(62);
@@ -117,7 +119,7 @@ TEST_CASE(
     CHECK(s.backoff.grant() == at(93));
 }
 
-TEST_CASE("backoff: a longer DIFS delays the slots") {
+TEST_CASE("backoff: with a longer DIFS, the slots of the backoff begin later") {
     Station s;
     s.timing.difs = 14us;
     s.good_frame(20, 60);
@@ -142,7 +144,7 @@ TEST_CASE("backoff: idle slots that are counted between several frames add up") 
 }
 
 TEST_CASE(
-    "backoff: of overlapping frames the earliest stops the slots, whichever is reported first") {
+    "backoff: if frames overlap, the earliest stops the countdown, whichever is reported first") {
     for (const bool swapped : {false, true}) {
         Station s;
         s.good_frame(20, 60);
@@ -198,8 +200,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "backoff: stations whose backoffs end together both send if the propagation delay is below 2 "
-    "us") {
+    "backoff: two stations with equal backoffs both send if the propagation delay is below 2 us") {
     WifiTiming timing = timing_of(WifiStandard::b);
     for (const Duration delay : {Duration{0}, Duration{1000}, Duration{1999}}) {
         Backoff first(timing), second(timing);

@@ -65,7 +65,8 @@ TEST_CASE(
     CHECK(pair.changes(b, a, start_of_run, start_of_run + 60s) == found);
 }
 
-TEST_CASE("link changes: with models that use only the distance, times are exact to 1 ns") {
+TEST_CASE(
+    "link changes: with models that use only the distance, times of changes are exact to 1 ns") {
     const Scene field;
     const std::vector<Propagation> models{Disc{.range = 15_m}, Friis{}, ItuIndoor{}, LogDistance{}};
     test::Draw draw(8);
@@ -86,8 +87,8 @@ TEST_CASE("link changes: with models that use only the distance, times are exact
 }
 
 TEST_CASE(
-    "link changes: a path that only touches the range gives no change, a path 1 nm further inside "
-    "gives two") {
+    "link changes: none is found if a path only touches the range, two if it is 1 nm further "
+    "inside") {
     const Scene field;
     for (const double miss : {10.0, 10.0 - 1e-9}) {
         MovingPair pair{&field};
@@ -101,8 +102,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "link changes: fixed time steps miss as many passes as in the test vectors; the search misses "
-    "none") {
+    "link changes: fixed time steps miss contacts as often as in the test vectors; the search "
+    "misses none") {
     constexpr double sigmas = 5;
     constexpr std::uint64_t passes = 4000;
     const test::Vectors vectors("contact_miss_fixed_step.csv");
@@ -153,7 +154,8 @@ TEST_CASE("link changes: for a pair that stays out of range, the loss is compute
 }
 
 TEST_CASE(
-    "link changes: times are right for movements with and without end, and for resting robots") {
+    "link changes: times of changes are right for movements with and without end, and for resting "
+    "robots") {
     const Scene field;
     const Propagation disc = Disc{.range = 10_m};
     MovingPair pair{&field};
@@ -189,7 +191,8 @@ TEST_CASE("link changes: a tolerance of 0 ns and a negative min_dwell are refuse
         CHECK_THROWS_AS(pair.changes(a, b, start_of_run, never, search), std::invalid_argument);
 }
 
-TEST_CASE("link changes: with the model `two_ray` and constant heights, times are exact to 1 ns") {
+TEST_CASE(
+    "link changes: with the model `two_ray` and constant heights, change times are exact to 1 ns") {
     const Scene field;
     MovingPair pair{&field};
     const Leg away = moving({10, 0, 0}, {20, 0, 0}, 100s);
@@ -220,7 +223,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "link changes: if the loss is an arbitrary function, changes that last for min_dwell are "
+    "link changes: with an arbitrary loss function, all changes that last for min_dwell are "
     "found") {
     const Scene field;
     MovingPair pair{&field};
@@ -242,7 +245,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "link changes: a search in parts finds the same change as one search, with as many samples") {
+    "link changes: a search in parts finds the same changes as one search, without more samples") {
     const Scene field;
     MovingPair pair{&field};
     pair.add(Rings{}, resting({}));

@@ -115,7 +115,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "link changes: if a link behind a wall is up only near the shortest distance, it is found") {
+    "link changes: behind a wall, a link that is up only near the closest approach is found") {
     // Down by 37 dB at the start and at half time, by 51 dB at the end; up within 2.94 m, where
     // 30 log10(200 / d) is the wall's 55 dB.
     const Scene scene(OccupancyGrid{.columns = 1,

@@ -57,8 +57,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "range crossing: for robots at rest, a range that is not positive, and infinite or NaN "
-    "arguments, no crossing is found") {
+    "range crossing: none is found if the robots rest, the range is not positive, or a value is "
+    "infinite or NaN") {
     constexpr double nan = std::numeric_limits<double>::quiet_NaN();
     constexpr double infinity = std::numeric_limits<double>::infinity();
     CHECK_FALSE(range_crossing({1, 0, 0}, {}, 10));

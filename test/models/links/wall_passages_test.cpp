@@ -36,8 +36,8 @@ bool passes_at(const Scene& scene, const StraightMotion& a, const StraightMotion
 }  // namespace
 
 TEST_CASE(
-    "wall passages: for a line that turns about one end, the time of passing each visible corner "
-    "is found") {
+    "wall passages: if a line turns about one end, the times at which it passes visible corners "
+    "are found") {
     const Scene scene(box(4, 2, 2, 1));
     const StraightMotion eye{{0, 0, 0}}, far{{10, 0, 0}, {0, 1, 0}};
     // The corner (x, y) is in line with (10, t) at t = 10 y / x.
@@ -51,7 +51,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "wall passages: if an end of the line goes through a wall, its entry and exit times are "
+    "wall passages: if an end of the line goes through a wall, the times of entry and exit are "
     "found") {
     const Scene scene(box(4, -1, 2, 2));
     for (const double speed : {1.0, 0.625})
@@ -63,8 +63,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "wall passages: for a line that touches a corner and turns back, the time of the touch is "
-    "found") {
+    "wall passages: if a line touches a corner and turns back, the time of the touch is found") {
     // The line from (t, 0) to (0, 10 - t) touches the parabola of the points
     // (t^2, (10 - t)^2) / 10 from below; both roots are one.
     constexpr double parted = 1e-6;  // [s] two equal roots, by the rounding of what parts them
@@ -90,8 +89,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "wall passages: if an end of the line rises, the time at which it is as high as the wall is "
-    "found") {
+    "wall passages: if an end of the line rises, the time is found at which it is as high as the "
+    "wall") {
     const Scene scene(box(4, -1, 2, 2), {{.height = Meters{2}}});
     const StraightMotion lift{{5, 0, 0}, {0, 0, 0.5}}, post{{9, 0, 3}};
     CHECK(passes_at(scene, lift, post, 4));
@@ -103,8 +102,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "wall passages: the times at which a line between storeys passes ceilings or feet of upper "
-    "walls are found") {
+    "wall passages: if a line connects two storeys, the times at which it passes ceilings and feet "
+    "of upper walls are found") {
     OccupancyGrid ground = box(-50, -50, 1, 1), upper = box(4, -1, 2, 2);
     ground.cells = {Cell::free};
     upper.origin.z = 3;

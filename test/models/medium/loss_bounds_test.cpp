@@ -13,7 +13,8 @@
 namespace loss_bounds_test {
 using namespace rovernet;
 
-TEST_CASE("loss bounds: the loss lies between the bounds, which are close together") {
+TEST_CASE(
+    "loss bounds: the loss lies between the lower and the upper bound, which are close together") {
     const Propagation disc = Disc{.range = 100_m};
     for (const Propagation& model :
          {Propagation{Friis{}}, Propagation{LogDistance{.sigma = {0}}}, disc}) {

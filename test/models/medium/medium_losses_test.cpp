@@ -132,7 +132,8 @@ struct Twins {
 }  // namespace
 
 TEST_CASE(
-    "medium: cached losses change no result while robots move, jump or switch radios on and off") {
+    "medium: results are the same with cached losses, while robots move, jump or switch radios on "
+    "and off") {
     const CountedRays counted;
     const std::vector<Propagation> walls{counted}, mixed{counted, TwoRay{}, Raytrace2007{}};
     for (std::uint32_t seed = 1; seed <= 30; ++seed) {
@@ -208,7 +209,8 @@ TEST_CASE("medium: losses computed in the search for receivers are reused for th
 }
 
 TEST_CASE(
-    "recent losses: a loss known only to exceed a cut-off is not reused for a larger cut-off") {
+    "recent losses: if a loss is only known to exceed a cut-off, it is not reused for a larger "
+    "cut-off") {
     RecentLosses losses;
     const RecentLosses::Link link{NodeId{1}, NodeId{2}, {0, 0, 1}, {5, 0, 1}};
     CHECK(!losses.find(link, 90_dB));

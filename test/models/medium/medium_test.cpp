@@ -424,7 +424,8 @@ TEST_CASE(
     CHECK(plain > 10'000);
 }
 
-TEST_CASE("medium: the bound on neglected interference counts each frame at the cut-off level") {
+TEST_CASE(
+    "medium: the bound on neglected interference assumes that each frame is at the cut-off level") {
     const Scene field;
     // Noise of -93.6 dBm; the cut is at -95 dBm: each adds 0.72 of the noise at most.
     Medium medium{{.scene = &field, .interference_cut = Db{20}}};

@@ -95,7 +95,7 @@ struct Swarm {
 }  // namespace
 
 TEST_CASE(
-    "neighbour index: all nodes that a full search finds are found, while all move and turn") {
+    "neighbour index: all nodes found by a full search are found, while nodes move and turn") {
     for (std::uint32_t seed = 1; seed <= 60; ++seed) {
         Swarm swarm(seed);
         const double size = std::pow(10, swarm.draw.uniform(0, 5));
@@ -125,8 +125,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE(
-    "neighbour index: for a node at rest, the lower bound on its distance is nearly the distance") {
+TEST_CASE("neighbour index: for a node at rest, the lower bound is close to its true distance") {
     Swarm swarm(7);
     const auto place = [&] {
         return Vec3{swarm.draw.uniform(0, 1e4), swarm.draw.uniform(0, 1e4), 0};
@@ -165,8 +164,8 @@ TEST_CASE("neighbour index: a node whose movement has no end is found") {
 }
 
 TEST_CASE(
-    "neighbour index: searches find a node at 1e9 m, coincident nodes and nodes on a line, also "
-    "with a search radius of 0") {
+    "neighbour index: nodes at 1e9 m, in one place or on a line are found, also with a search "
+    "radius of 0") {
     Swarm swarm(3);
     for (int i = 0; i < 300; ++i) swarm.add({5, 5, 0}, 0);
     for (int i = 0; i < 300; ++i) swarm.add({10.0 * i, -70, 0}, 1);

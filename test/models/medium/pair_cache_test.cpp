@@ -88,7 +88,7 @@ TEST_CASE(
     CHECK(kept(cache, a, b, Db{91}) == std::nullopt);
 }
 
-TEST_CASE("pair cache: a sender's new losses have no lower cut-off than its stored losses") {
+TEST_CASE("pair cache: for a sender with stored losses, the cut-off of new losses is not lowered") {
     PairCache cache;
     keep(cache, a, b, 95);
     CHECK(cache.open(a, Db{80}) == budget);

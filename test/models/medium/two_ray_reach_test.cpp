@@ -89,7 +89,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "two-ray: with equal antenna heights, distance alone decides exactly whether a link is up") {
+    "two-ray: if antenna heights are equal, comparing distances decides exactly whether a link is "
+    "up") {
     Ground ground(1);
     const Radio radio{.power = {10}, .antenna_height = {1.5}};
     const auto add = [&](double x) {
@@ -118,7 +119,7 @@ TEST_CASE(
     CHECK(ground.compare(start_of_run + 8s) > 500);
 }
 
-TEST_CASE("two-ray: over 4 km of flat ground only nearby robots are checked") {
+TEST_CASE("two-ray: over 4 km of flat ground, only nearby robots are checked as receivers") {
     Scene scene;
     Legs legs;
     Medium medium({.scene = &scene});

@@ -135,7 +135,7 @@ Emission frame_of(Medium& medium, NodeId from, Time t, const Legs& legs) {
 }  // namespace
 
 TEST_CASE(
-    "variation: exactly the robots at which the level exceeds the sensitivity are receivers") {
+    "variation: the receivers are exactly the robots where the level exceeds the sensitivity") {
     for (const Variation& v : variations()) {
         CAPTURE(std::string(v.name));
         Twins twins(v, 3);
@@ -185,7 +185,8 @@ TEST_CASE("variation: shadowing of sigma 0 has no effect") {
 }
 
 TEST_CASE(
-    "variation: shadowing of links equals that of the model `log_distance` with the same sigma") {
+    "variation: losses with the shadowing `link` equal those of `log_distance` with the same "
+    "sigma") {
     Medium own({.scene = &open_field, .seed = 4, .replication = 1});
     Medium over({.scene = &open_field,
                  .shadowing = {.model = ShadowingModel::link, .sigma = Db{7}},
@@ -235,7 +236,7 @@ TEST_CASE("variation: the loss of a link with strong shadowing is never below 0"
     CHECK(none > 0);
 }
 
-TEST_CASE("variation: shadowing is refused for a model with its own random part") {
+TEST_CASE("variation: shadowing is refused for a propagation model with its own random part") {
     Medium medium({.scene = &open_field, .shadowing = field_shadowing});
     CHECK_THROWS_AS(medium.add({}, 1, LogDistance{}), std::invalid_argument);
     CHECK_NOTHROW(medium.add({}, 1, LogDistance{.sigma = Db{0}}));

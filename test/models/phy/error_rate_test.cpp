@@ -142,7 +142,7 @@ TEST_CASE("error rate: bit error rates below 1e-16 are not lost in the logarithm
     }
 }
 
-TEST_CASE("error rate: the success of a frame is the product of the successes of its parts") {
+TEST_CASE("error rate: a frame's success probability is the product of those of its parts") {
     const double header = 192 * log_success(Modulation::dsss_1, ratio(-4));
     const double body = 4000 * log_success(Modulation::cck_11, ratio(5.5));
     constexpr double roundings = 1e-14;  // relative
@@ -275,7 +275,7 @@ TEST_CASE("cck: modelling the 256 code words of 11 Mb/s as two sets of 16 is rig
     }
 }
 
-TEST_CASE("cck: 11 Mb/s has the bit error rate of 5.5 Mb/s at half the SINR") {
+TEST_CASE("cck: the bit error rate at 11 Mb/s equals that at 5.5 Mb/s with half the SINR") {
     for (double db = -20; db < 15; db += 0.5) {
         CHECK(bit_error_rate(Modulation::cck_11, 2 * ratio(db)) ==
               bit_error_rate(Modulation::cck_5_5, ratio(db)));
@@ -352,7 +352,8 @@ const Code three_quarters{{{true, true, false}, {true, false, true}}, 15};
 
 }  // namespace
 
-TEST_CASE("ofdm: the bound on bit errors sums the lowest path weights of each punctured code") {
+TEST_CASE(
+    "ofdm: for each convolutional code, the bit error bound sums over the lowest path weights") {
     struct Row {
         Modulation modulation;
         const Code& code;
@@ -385,8 +386,7 @@ TEST_CASE("ofdm: the bound on bit errors sums the lowest path weights of each pu
     }
 }
 
-TEST_CASE(
-    "error rate: with every compiler, rates of errors and success are equal to the last bit") {
+TEST_CASE("error rate: with every compiler, error and success rates are equal to the last bit") {
     std::uint64_t sum = 0;
     for (const Modulation modulation : all) {
         for (int i = -300; i < 400; ++i) {

@@ -35,7 +35,7 @@ void for_each_phy(Visit visit) {
 }  // namespace
 
 TEST_CASE(
-    "every phy: an empty frame takes the time of its preamble; a longer frame never takes less "
+    "every phy: an empty frame takes the time of its preamble; adding bytes never shortens the "
     "time") {
     for_each_phy([](const Phy& phy) {
         for (const BitRate rate : phy.rates()) {

@@ -222,7 +222,7 @@ TEST_CASE("every model: a link has the same loss if computed alone or together w
     });
 }
 
-TEST_CASE("every model: beyond the reach for a budget, the loss exceeds the budget") {
+TEST_CASE("every model: beyond the reach of a link budget, the loss exceeds this budget") {
     test::Draw draw(5);
     const Scene open_field;
     for_each_variant([&](const auto& model) {
@@ -298,7 +298,9 @@ TEST_CASE("every model: infinite parameters are refused") {
     CHECK_THROWS_AS(Propagation{Raytrace2007{.wall_factor = inf}}, std::invalid_argument);
 }
 
-TEST_CASE("every model: the name is unique, of lower-case letters, digits and underscores") {
+TEST_CASE(
+    "every model: the model's name is unique; it has only lower-case letters, digits and "
+    "underscores") {
     std::vector<std::string> names;
     for_each_model([&]<class Model>() { names.emplace_back(Model::name); });
     std::sort(names.begin(), names.end());

@@ -43,7 +43,7 @@ TEST_CASE("disc: a missing range is refused") {
     CHECK_THROWS_AS(Propagation{Disc{}}, std::invalid_argument);
 }
 
-TEST_CASE("disc: the reach is the range, but infinite for a budget of 1000 dB") {
+TEST_CASE("disc: the reach is the range, but for a link budget of 1000 dB it is infinite") {
     CHECK(Disc{.range = 7_m}.reach(91_dB, 2450_MHz) == 7_m);
     CHECK(std::isinf(Disc{.range = 7_m}.reach(1000_dB, 2450_MHz).value));
 }

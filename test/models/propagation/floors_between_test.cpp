@@ -186,7 +186,7 @@ TEST_CASE(
     CHECK(near(loss(ItuIndoor{}, empty_storeys(3, {slab_15, {}}), 1, 7, f), without, tolerance));
 }
 
-TEST_CASE("storeys: raytrace_2007 adds the loss of a ceiling only if its material has a loss") {
+TEST_CASE("storeys: `raytrace_2007` adds the loss of a ceiling only if its material has a loss") {
     const Raytrace2007 model{.coefficient = 20};
     const double without = loss(model, Scene{}, 1, 4);
     CHECK(near(loss(model, empty_storeys(2), 1, 4), without, tolerance));

@@ -69,7 +69,8 @@ TEST_CASE(
     CHECK(used > 60);
 }
 
-TEST_CASE("itu_indoor: with a given coefficient, losses equal the test vectors without floors") {
+TEST_CASE(
+    "itu_indoor: with a given coefficient, losses equal the test vectors without floor losses") {
     const test::Vectors vectors("p1238_classic.csv");
     for (std::size_t i = 0; i < vectors.size(); ++i) {
         const double d = vectors.number(i, "d_m");
@@ -153,7 +154,8 @@ TEST_CASE(
     CHECK(near(between(one, 1, 7), between(one, 1, 1), tolerance));
 }
 
-TEST_CASE("itu_indoor: beyond the last number of floors in the table the loss is constant") {
+TEST_CASE(
+    "itu_indoor: for more floors than the table has, the loss of the last table entry is used") {
     const ItuIndoor office = indoor({}, Environment::office);
     const auto rise = [&](double z) {
         return test::OneLink{.frequency = {900e6}, .to = {40, 0, z}}.loss(office) -

@@ -140,7 +140,9 @@ TEST_CASE("log_distance: with sigma 0, the keys of robots and the seed have no e
     CHECK(out == plain);
 }
 
-TEST_CASE("log_distance: `excess` adds to the loss at every distance, and shortens the reach") {
+TEST_CASE(
+    "log_distance: the parameter `excess` is added to the loss at every distance, and shortens the "
+    "reach") {
     const LogDistance plain{.exponent = 3, .sigma = 0_dB};
     LogDistance more = plain;
     more.excess = 7.5_dB;

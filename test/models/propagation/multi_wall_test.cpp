@@ -78,8 +78,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE(
-    "multi_wall: whether a wall counts as light depends on its thickness, not on the ray's angle") {
+TEST_CASE("multi_wall: a wall's thickness, not the ray's angle, decides if it is a light wall") {
     // 5 cm thick, the ray at up to 63 degrees to its normal: 11 cm of chord.
     const Scene scene(strip(2, {{20, 1}}));
     const auto loss = [&](Vec3 from, Vec3 to) {
@@ -94,7 +93,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("multi_wall: an oblique wall drawn in steps counts as one wall") {
+TEST_CASE("multi_wall: an oblique wall that is drawn as stair steps counts as one wall") {
     constexpr int cells = 200;
     constexpr double side = cells * cell, half_thickness = 0.075;  // [m]
     const Vec3 normal{-std::sin(0.35), std::cos(0.35), 0};

@@ -139,7 +139,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "edge pair: a face of length 0 acts as one edge; an edge far below the line of sight has no "
+    "edge pair: two edges 1 nm apart act as one; an edge far below the line of sight has no "
     "effect") {
     for (const double bend : {1e-4, 0.01, 0.1}) {
         const double along = 1e-9;

@@ -114,7 +114,8 @@ TEST_CASE("ray tracer: number and strength of the images of a room equal the tes
 }
 
 TEST_CASE(
-    "ray tracer: reflections in a corridor of lossy walls equal the image series, at each order") {
+    "ray tracer: in a corridor of lossy walls, reflections up to each order equal the image "
+    "series") {
     const test::Vectors vectors("corridor_lossy_images.csv");
     for (std::size_t i = 0; i < vectors.size(); ++i) {
         const double a = vectors.number(i, "a_m"), rho = vectors.number(i, "rho_m");
@@ -136,7 +137,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("ray tracer: reflections in a metal corridor equal the image series, at each order") {
+TEST_CASE("ray tracer: in a metal corridor, reflections up to each order equal the image series") {
     const test::Vectors vectors("corridor_pec_modal_vs_images.csv");
     for (std::size_t i = 0; i < vectors.size(); ++i) {
         const double a = vectors.number(i, "a_m"), rho = vectors.number(i, "rho_m");
@@ -155,7 +156,8 @@ TEST_CASE("ray tracer: reflections in a metal corridor equal the image series, a
     }
 }
 
-TEST_CASE("ray tracer: a wall drawn at any angle reflects like a straight wall at this angle") {
+TEST_CASE(
+    "ray tracer: a wall drawn on the grid at any angle reflects like a smooth wall at this angle") {
     for (int degrees = 0; degrees < 180; degrees += 7) {
         CAPTURE(degrees);
         const double angle = degrees * pi / 180, cell = 0.05;
@@ -187,8 +189,7 @@ TEST_CASE("ray tracer: a wall drawn at any angle reflects like a straight wall a
 }
 
 TEST_CASE(
-    "ray tracer: a path along an oblique wall crosses none of the stair steps of the wall's "
-    "cells") {
+    "ray tracer: a path along an oblique wall does not cross the stair steps of the wall's cells") {
     OccupancyGrid grid;
     grid.columns = grid.rows = 200;
     grid.cell_width = grid.cell_height = 0.05;
@@ -259,7 +260,8 @@ TEST_CASE("ray tracer: a face reflects only within its ends, horizontally and in
 }
 
 TEST_CASE(
-    "ray tracer: the same paths are found from either end, with and without a limit of loss") {
+    "ray tracer: from both ends of a link the same paths are found, with and without a loss "
+    "limit") {
     test::Draw draw(11);
     const Scene scene(test::random_map(draw, 30, 30, 6));
     const RayMaterials materials(scene.materials(), 2450_MHz, ItuMaterial::concrete, {}, 6_dB);

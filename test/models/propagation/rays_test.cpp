@@ -164,7 +164,7 @@ TEST_CASE(
     CHECK(model.paths(link).too_high.value == 0);
 }
 
-TEST_CASE("rays: behind a screen the path around it has the loss of a knife edge") {
+TEST_CASE("rays: behind a screen, the path around the screen has the loss of a knife edge") {
     const Scene scene = drawn(84, 6, 0.05, bar(-40, 0, 0.05));
     for (const double x : {0.2, 0.5, 1.5}) {
         const Vec3 from{-x, -2, 1}, to{-x, 2.55, 1};
@@ -219,7 +219,8 @@ TEST_CASE("rays: the loss is continuous at the shadow border of a wall") {
 }
 
 TEST_CASE(
-    "rays: the shadows of a sheet, a wedge and bricks of 1 cm and 10 cm differ by less than 1 dB") {
+    "rays: the losses behind a sheet, a wedge and bricks of 1 cm and 10 cm differ by less than 1 "
+    "dB") {
     std::vector<Scene> scenes;
     for (const double thick : {0.001, 0.01, 0.1}) {
         const double cell = thick < 0.005 ? 0.001 : 0.01, low = thick == 0.1 ? -0.05 : 0;
@@ -259,7 +260,8 @@ TEST_CASE("rays: thick walls and walls with round ends reflect like thin walls")
     CHECK(near(round, thin, 0.05));
 }
 
-TEST_CASE("rays: behind an obstacle every point has a path, less than 45 dB below free space") {
+TEST_CASE(
+    "rays: to every point behind an obstacle there is a path, less than 45 dB below free space") {
     // Behind half a metre the exact wave is up to 42 dB down: see ray_bodies_test.cpp.
     for (const double thick : {0.05, 0.3, 0.5}) {
         CAPTURE(thick);
@@ -275,7 +277,7 @@ TEST_CASE("rays: behind an obstacle every point has a path, less than 45 dB belo
 }
 
 TEST_CASE(
-    "rays: cells of half or double size change the loss of an oblique wall by less than 1 dB") {
+    "rays: near an oblique wall, cells of half or double size change the loss by less than 1 dB") {
     const auto slanting = [](double x, double y) {
         const double along = 0.8 * x + 0.6 * y, off = 0.8 * y - 0.6 * x;
         return std::abs(along) < 3 && std::abs(off) < 0.1;

@@ -67,8 +67,7 @@ TEST_CASE("raytrace_2007: an oblique ray pays for its whole length inside the wa
 }
 
 TEST_CASE(
-    "raytrace_2007: a computation that stops at the cut-off finds the same links within the "
-    "budget") {
+    "raytrace_2007: a computation that stops at the cut-off finds the same links as a full one") {
     test::Draw draw(2007);
     const Scene scene(test::random_map(draw, 40, 40, 10));
     int within = 0, beyond = 0;

@@ -206,7 +206,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "shadowed range: near the random draw where a link is lost, in_range() agrees with the loss") {
+    "shadowed range: near the random draw at which a link goes down, in_range() agrees with the "
+    "loss") {
     Numbers draw(3);
     int wrong = 0;
     for (int network = 0; network < 500; ++network) {
@@ -233,7 +234,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "shadowed range: with sigma 0, any random draw gives the largest distance within the budget") {
+    "shadowed range: with sigma 0, the range is the largest distance within the budget, for any "
+    "random draw") {
     for (const double budget : {-1.0, 0.0, 40.0, 80.0, 120.0}) {
         CAPTURE(budget);
         const Setting setting{.model = {.sigma = 0_dB}, .budget = {budget}};
@@ -343,7 +345,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "shadowed range: only `log_distance` has such a range, which gives the same links as the "
+    "shadowed range: only `log_distance` offers a shadowed range; it gives the same links as the "
     "loss") {
     for_each_model([]<class Model>() {
         const Propagation model{[] {

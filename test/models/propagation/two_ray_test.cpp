@@ -185,7 +185,8 @@ TEST_CASE("two-ray: at the same distance, a higher antenna may have less loss") 
 }
 
 TEST_CASE(
-    "two-ray: if a greatest height is given, the reach is exact for antennas of this height") {
+    "two-ray: if the greatest antenna height is given, the reach is exact for antennas at this "
+    "height") {
     for (const double highest : {-2.0, 0.5, 1.5, 30.0}) {
         const double h = std::max(highest, 0.1);
         for (const double budget : {40.0, 80.0, 95.0, 140.0}) {
@@ -200,7 +201,7 @@ TEST_CASE(
     CHECK(TwoRay{}.reach(102.57078_dB, 914_MHz, 1.5_m).value == doctest::Approx(550).epsilon(1e-4));
 }
 
-TEST_CASE("two-ray: if no greatest height is given, the reach is that of free space") {
+TEST_CASE("two-ray: if no greatest antenna height is given, the reach is that of free space") {
     const Propagation model = TwoRay{};
     CHECK(model.reach(80_dB, 2450_MHz) == Friis{}.reach(80_dB, 2450_MHz));
 }

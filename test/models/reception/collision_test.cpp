@@ -63,7 +63,7 @@ TEST_CASE("collision: a later, stronger frame is received only with CaptureOrder
     }
 }
 
-TEST_CASE("collision: a node receives no frame that overlaps its own transmission") {
+TEST_CASE("collision: a node does not receive frames that overlap its own transmission") {
     const Arrival own = own_frame(NodeId{0}, at(90), at(200));
     for (const auto order : {CaptureOrder::first, CaptureOrder::later}) {
         const Collision model{.capture = order};
@@ -75,7 +75,8 @@ TEST_CASE("collision: a node receives no frame that overlaps its own transmissio
 }
 
 TEST_CASE(
-    "collision: with CaptureOrder::first, a frame begun during another finds the receiver busy") {
+    "collision: with CaptureOrder::first, a frame that begins during another frame finds the "
+    "receiver busy") {
     const Arrival first = frame(0, 100, -50), second = frame(50, 150, -50);
     const Collision in_order, any_order{.capture = CaptureOrder::later};
     CHECK(in_order.finds_receiver_at(second, first));
@@ -85,7 +86,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "collision: a frame is ignored if it begins during one that is stronger by the capture ratio") {
+    "collision: a frame is ignored if it begins during a frame that is stronger by the capture "
+    "ratio") {
     const auto lets_pass = [](Arrival f, Arrival g) {
         return Collision{}.lets_pass(f, g, [](const Arrival& a, const Arrival& b, Db by) {
             return a.level_dbm >= b.level_dbm + by.value;

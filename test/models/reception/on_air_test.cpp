@@ -34,7 +34,9 @@ std::set<std::uint64_t> near(OnAir& on_air, const Emission& frame, Time now,
 
 }  // namespace
 
-TEST_CASE("frames on air: every frame that reaches a receiver of the given frame is found") {
+TEST_CASE(
+    "frames on air: for a given frame, all other frames that reach any of its receivers are "
+    "found") {
     std::size_t found = 0, passed_over = 0;
     for (std::uint32_t seed = 1; seed <= 100; ++seed) {
         CAPTURE(seed);
@@ -101,7 +103,7 @@ TEST_CASE(
     CHECK(near(on_air, here, at(1000)).count(far.serial));
 }
 
-TEST_CASE("frames on air: ended frames are removed, oldest first") {
+TEST_CASE("frames on air: frames that have ended are removed, the oldest first") {
     OnAir on_air;
     on_air.goes(rest({}), Meters{0});
     std::vector<std::uint32_t> forgotten;
@@ -137,7 +139,7 @@ TEST_CASE("frames on air: ended frames are removed, oldest first") {
     CHECK(on_air.frames().empty());
 }
 
-TEST_CASE("frames on air: for a given time after its end, a frame is found as a past frame") {
+TEST_CASE("frames on air: a frame is still found for a given time after its end, as a past frame") {
     for (const int kept : {0, 1, 7, 40}) {
         CAPTURE(kept);
         test::Draw draw(static_cast<std::uint32_t>(kept));
@@ -178,7 +180,8 @@ TEST_CASE("frames on air: for a given time after its end, a frame is found as a 
     }
 }
 
-TEST_CASE("frames on air: a node's state at the begin of a frame is stored as long as the frame") {
+TEST_CASE(
+    "frames on air: a node's state at the beginning of a frame is kept as long as the frame") {
     constexpr int nodes = 5;
     std::size_t unchanged = 0, changed = 0;
     for (std::uint32_t seed = 1; seed <= 50; ++seed) {

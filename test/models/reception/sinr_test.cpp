@@ -149,7 +149,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "sinr: the receiver's own later transmission does not release its lock on an earlier frame") {
+    "sinr: a later transmission of the receiver does not release its lock on an earlier frame") {
     Receiver r;
     r.hear(NodeId{1}, at(0), at(100), -50);
     const auto second = r.hear(NodeId{2}, at(10), at(50), -30);
@@ -170,7 +170,8 @@ TEST_CASE("sinr: a random draw decides only about frames whose bits may be wrong
     }
 }
 
-TEST_CASE("sinr: interference is added to the noise, so as much interference as noise costs 3 dB") {
+TEST_CASE(
+    "sinr: interference is added to the noise, so interference as strong as the noise costs 3 dB") {
     constexpr double noise = -94, above = 8.5, bits = 1100;
     const double sinr = math::exp10(above / 10) / 2;
     const double probability = math::exp(bits * log_success(Modulation::cck_11, sinr));

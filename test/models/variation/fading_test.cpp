@@ -282,7 +282,7 @@ TEST_CASE(
     CHECK(test::near(crossings_over_theory(1.8, {-15})[0], 0.91, noise));
 }
 
-TEST_CASE("fading: the table of gamma variates agrees with their equation") {
+TEST_CASE("fading: gamma variates from the table agree with those computed from their equation") {
     for (const double m : {0.5, 0.75, 3.0, 100.0}) {
         const GammaTable table(m);
         for (double p = 1e-19; p < 15; p *= 1.37) {

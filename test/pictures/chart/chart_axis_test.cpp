@@ -66,7 +66,8 @@ TEST_CASE("chart axis: an axis ends at a tick, or slightly beyond its last tick"
 }
 
 TEST_CASE(
-    "chart axis: the axis of a ratio is 0 to 1, or a part of it if all values are close together") {
+    "chart axis: the axis of a ratio goes from 0 to 1; if all values are close together, it is "
+    "shorter") {
     const ChartLimits share{.low = 0, .high = 1};
     const ChartAxis wide = number_axis(range({0.4, 0.7}), false, 6, share);
     CHECK((wide.low == 0 && wide.high == 1));
@@ -78,8 +79,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "chart axis: if a quantity has natural limits, as 0 and 1, the axis stays within these "
-    "limits") {
+    "chart axis: the axis of a quantity with natural limits, such as 0 and 1, stays within them") {
     const ChartLimits share{.low = 0, .high = 1}, positive{.low = 0};
     for (const auto& each : {range({0.93, 0.999}), range({0.99, 1}), range({1, 1}), range({0, 0}),
                              range({0, 0.01}), range({0.0001, 0.13}), range({0.9999, 1})}) {
@@ -96,13 +96,13 @@ TEST_CASE(
     CHECK(number_axis(range({0.1, 0.9}), true, 6, share).high == 1);
 }
 
-TEST_CASE("chart axis: an axis is extended to values beyond the natural limits of the quantity") {
+TEST_CASE("chart axis: a value beyond the natural limits of its quantity extends the axis") {
     const ChartAxis axis = number_axis(range({-0.3, 1.2}), false, 6, {.low = 0, .high = 1});
     CHECK((axis.low <= -0.3 && axis.high >= 1.2));
 }
 
 TEST_CASE(
-    "chart axis: values are placed linearly between the ends of the axis, or by their logarithms") {
+    "chart axis: the position on a linear axis follows the value, on a log axis its logarithm") {
     const ChartAxis linear = number_axis(range({-10, 30}), false, 6);
     CHECK(std::abs(linear.share(0) - 0.25) < rounding);
     CHECK((linear.share(-1e9) == 0 && linear.share(1e9) == 1));
@@ -114,7 +114,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "chart axis: a log axis has labels at powers of ten, a short axis also at 2 and 5 times them") {
+    "chart axis: a long log axis has labels at 1, 10, 100 ..., a short log axis at 1, 2, 5, 10, 20 "
+    "...") {
     CHECK(texts(number_axis(range({0.001, 1e4}), true, 8)) == Texts{"0.001", "0.01", "0.1", "1",
                                                                     "10", "100", "1000",
                                                                     "10\xc2\xa0"
@@ -130,13 +131,14 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("chart axis: small ticks of a logarithmic axis are at 2 to 9 times a power of ten") {
+TEST_CASE("chart axis: a log axis has minor ticks at 2 to 9 times a power of ten") {
     const ChartAxis axis = number_axis(range({1, 10}), true, 3);
     REQUIRE(axis.ticks.size() == 10);
     for (int i = 0; i < 9; ++i) CHECK(axis.ticks[static_cast<std::size_t>(i)].value == i + 1);
 }
 
-TEST_CASE("chart axis: equal values, no values and the largest numbers give a valid axis") {
+TEST_CASE(
+    "chart axis: with no values, with equal values and with huge values, the axis is still valid") {
     const double least = std::numeric_limits<double>::denorm_min();
     for (const auto& each : {range({}), range({0}), range({5}), range({-5, -5}), range({1e100}),
                              range({-1e100, 1e100}), range({1, 1 + 1e-16}),
@@ -153,7 +155,8 @@ TEST_CASE("chart axis: equal values, no values and the largest numbers give a va
     CHECK((log.low < 7 && log.high > 7));
 }
 
-TEST_CASE("chart axis: labels of ticks have as many digits as the distance of the ticks requires") {
+TEST_CASE(
+    "chart axis: tick labels have as many digits as the distance between the ticks requires") {
     CHECK(texts(number_axis(range({0, 50'000}), false, 6)) == Texts{"0",
                                                                     "10\xc2\xa0"
                                                                     "000",
@@ -173,7 +176,8 @@ TEST_CASE("chart axis: labels of ticks have as many digits as the distance of th
     CHECK(texts(number_axis(range({99.5, 100.5}), false, 3)) == Texts{"99.5", "100.0", "100.5"});
 }
 
-TEST_CASE("chart axis: a value is printed with a resolution of a hundredth of the axis") {
+TEST_CASE(
+    "chart axis: a printed value has enough digits to resolve 1/100 of the range of the axis") {
     const ChartAxis axis = number_axis(range({0, 1}), false, 6);
     CHECK(axis.text(0.126) == "0.13");
     CHECK(axis.text(1) == "1.00");
@@ -198,7 +202,7 @@ TEST_CASE("chart axis: numbers are rounded to four digits or to integers, withou
     CHECK(number_text(0.0001) == "0.0001");
 }
 
-TEST_CASE("chart axis: whole numbers have no ticks with fractions") {
+TEST_CASE("chart axis: if all values are whole numbers, no tick is at a fraction") {
     ChartRange few;
     for (const double v : {1, 2, 3, 4, 6}) few.include(v);
     for (const ChartTick& tick : number_axis(few, false, 12).ticks) {

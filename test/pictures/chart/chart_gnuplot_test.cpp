@@ -90,7 +90,7 @@ TEST_CASE(
     CHECK(has(chart_gnuplot(two), "set boxwidth 0.4"));
 }
 
-TEST_CASE("gnuplot: a whisker below a logarithmic axis ends at the axis") {
+TEST_CASE("gnuplot: a whisker that would reach below a logarithmic axis ends at the axis") {
     Chart chart{.kind = ChartKind::scatter,
                 .series = {{"s", {{.x = 1, .y = 2, .low = -5, .high = 9}}}}};
     chart.log_y = true;

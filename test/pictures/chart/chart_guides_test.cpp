@@ -30,8 +30,7 @@ Chart two_points() {
 
 }  // namespace
 
-TEST_CASE(
-    "chart: a reference line of a scatter chart passes through marks at the points of the line") {
+TEST_CASE("chart: a reference line given by two points passes through the marks at these points") {
     Chart chart = two_points();
     chart.guides.push_back({.points = {{.x = 1, .y = 1}, {.x = 10, .y = 5}}, .dashed = true});
     const auto svg = svg_elements(drawn(chart));
@@ -56,7 +55,7 @@ TEST_CASE("chart: an error bar of x values is a horizontal whisker to both sides
     CHECK(whisker.at(1).x > mark.x + 10);
 }
 
-TEST_CASE("chart: a band of y values up to a limit is drawn below the limit, with its label") {
+TEST_CASE("chart: a labelled band marks all y values up to a given limit") {
     Chart chart = two_points();
     chart.band = 0.5;
     chart.band_label = "nobody knows";

@@ -77,7 +77,7 @@ Chart ramp(ChartKind kind, int count) {
 
 }  // namespace
 
-TEST_CASE("chart: marks stay within the axes, also at the ends and side by side") {
+TEST_CASE("chart: marks stay inside the axes, even marks at the ends of an axis or side by side") {
     for (const ChartKind kind : {ChartKind::lines, ChartKind::scatter, ChartKind::bars}) {
         for (const std::size_t count : {1U, 2U, 6U, 12U}) {
             Chart chart{.kind = kind, .y_limits = {0, 1}};
@@ -137,7 +137,7 @@ TEST_CASE(
     CHECK(near(p.y, (y_tick(svg, "0.01") + y_tick(svg, "100")) / 2));
 }
 
-TEST_CASE("chart: a band contains the line, and its edges are the ends of the error bars") {
+TEST_CASE("chart: the edges of the band around a line are the ends of the error bars") {
     const auto svg = svg_elements(drawn(ramp(ChartKind::lines, 10)));
     const auto line = corners(of_class(svg, "line").at(0)).at(0);
     const auto band = corners(of_class(svg, "band").at(0)).at(0);
@@ -153,8 +153,7 @@ TEST_CASE("chart: a band contains the line, and its edges are the ends of the er
     CHECK(of_class(svg, "whisker").empty());
 }
 
-TEST_CASE(
-    "chart: with few points, each error bar is a whisker from end to end, and there is no band") {
+TEST_CASE("chart: with few points, each error bar is drawn as a whisker, and no band is drawn") {
     const auto svg = svg_elements(drawn(ramp(ChartKind::lines, 4)));
     CHECK(of_class(svg, "band").empty());
     const auto found = stems(of_class(svg, "whisker").at(0));
@@ -170,7 +169,9 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("chart: a band ends where an error bar is missing; a single error bar is a whisker") {
+TEST_CASE(
+    "chart: a band ends where an error bar is missing; an error bar without neighbours is a "
+    "whisker") {
     Chart lines = ramp(ChartKind::lines, 9);
     lines.series[0].points[3].low.reset();
     lines.series[0].points[5].high.reset();
@@ -324,8 +325,8 @@ TEST_CASE("chart: the steps of a cdf rise by the share of points at each x") {
 }
 
 TEST_CASE(
-    "chart: cells of a heat map are at their labels, the first row at the bottom, in the colours "
-    "of the scale") {
+    "chart: in a heat map, each cell is at its labels on both axes and has the colour of its "
+    "value") {
     Chart heat = one_series(ChartKind::heat_map, {{.x = 1, .y = 0}, {.x = 2, .y = 50}});
     heat.series.push_back({"above", {{.x = 2, .y = 100}}});
     const std::string text = drawn(heat);
@@ -346,7 +347,7 @@ TEST_CASE(
     CHECK(has(text, "no value"));
 }
 
-TEST_CASE("chart: if every cell of a heat map has a value, no missing cell is drawn or mentioned") {
+TEST_CASE("chart: if every cell of a heat map has a value, no cell is shown as missing") {
     const std::string text =
         drawn(one_series(ChartKind::heat_map, {{.x = 1, .y = 0}, {.x = 2, .y = 1}}));
     CHECK_FALSE(has(text, "no value"));
@@ -394,7 +395,7 @@ TEST_CASE("chart: labels of a scatter chart overlap neither other labels nor mar
 }
 
 TEST_CASE(
-    "chart: a label without room beside its mark is above or below its whisker, and overlaps no "
+    "chart: if a label has no room beside its mark, it is placed above or below the mark's "
     "whisker") {
     // Three whiskers too near to one another for a label between them, the middle one the longest
     // at one end or the other; the others' labels stand left and right of their marks.
@@ -468,7 +469,7 @@ TEST_CASE("chart: a mark has a tooltip with its values") {
 }
 
 TEST_CASE(
-    "chart: points of a series that belongs to a curve are hollow marks in the curve's colour, "
+    "chart: a series that belongs to a curve is drawn as hollow marks in the curve's colour, "
     "without a line") {
     Chart chart = one_series(ChartKind::lines, {{.x = 0, .y = 1}, {.x = 5, .y = 2}});
     chart.series.push_back({"beside", {{.x = 2, .y = 1.5}, {.x = 3, .y = 1.2}}, 0});

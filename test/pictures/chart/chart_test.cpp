@@ -105,7 +105,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "chart: the legend has its title, such as the key that a study varies, in SVG and in gnuplot") {
+    "chart: the legend has a title (such as the name of a varied key), in SVG and in gnuplot") {
     Chart lines = one_series(ChartKind::lines, {{.x = 1, .y = 1}, {.x = 2, .y = 2}});
     lines.legend_title = "ttl";
     const auto svg = svg_elements(drawn(lines));
@@ -159,7 +159,8 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("chart: labels below the x axis are side by side, slanted if they are too long") {
+TEST_CASE(
+    "chart: labels below the x axis do not overlap, and labels that are too long are slanted") {
     for (const double largest : {1.0, 7.3e5, 1.234e6, 2e-9}) {
         const auto svg = svg_elements(drawn(
             one_series(ChartKind::lines, {{.x = 0.9 * largest, .y = 1}, {.x = largest, .y = 2}})));
@@ -181,7 +182,7 @@ TEST_CASE("chart: labels below the x axis are side by side, slanted if they are 
     CHECK(has(drawn(bars), "rotate(-40"));
 }
 
-TEST_CASE("chart: panels are in rows, with their axes at one height") {
+TEST_CASE("chart: panels are arranged in rows, and the axes of a row are at the same height") {
     const auto charts = gallery("x");
     const auto two = panels(chart_svg(charts, {.width = 300, .height = 100}));
     REQUIRE(two.size() == 5);
@@ -194,7 +195,7 @@ TEST_CASE("chart: panels are in rows, with their axes at one height") {
 }
 
 TEST_CASE(
-    "chart: every chart of a row leaves room for the longest title and the most notes of the row") {
+    "chart: all charts of a row leave as much room as the longest title and note of the row need") {
     std::vector<Chart> charts{one_series(ChartKind::lines, {{.x = 1, .y = 1}}), Chart{}, Chart{}};
     const auto plain = panels(chart_svg(charts));
     charts[0].title = "two lines " + std::string(40, 'w') + " " + std::string(40, 'w');

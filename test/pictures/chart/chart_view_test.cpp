@@ -37,7 +37,9 @@ TEST_CASE("chart view: a line goes through its points in the order of x, broken 
     CHECK(points[2].joined);
 }
 
-TEST_CASE("chart view: values and ends of intervals that are not finite are left out and counted") {
+TEST_CASE(
+    "chart view: values and interval ends that are infinite, huge or NaN are left out and "
+    "counted") {
     const Chart lines = chart(ChartKind::lines, {{.x = no_number, .y = 1},
                                                  {.x = 1, .y = infinity},
                                                  {.x = 2, .y = 2e100},
@@ -101,7 +103,7 @@ TEST_CASE("chart view: a cdf counts the points at or below x") {
     CHECK(view.left_out == 1);
 }
 
-TEST_CASE("chart view: bars begin at 0, and become dots if all would look equal") {
+TEST_CASE("chart view: bars begin at 0; if all bars would look equal, dots are drawn instead") {
     const auto bars = [](std::vector<double> values) {
         Chart out = chart(ChartKind::bars, {});
         for (const double y : values) out.series[0].points.push_back({.category = "w", .y = y});

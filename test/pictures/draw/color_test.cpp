@@ -37,21 +37,21 @@ TEST_CASE("color: luminance is 0 for black, 1 for white, and 0.2126 for red") {
     CHECK(std::abs(luminance({128, 128, 128}) - 0.2159) < half_a_digit);
 }
 
-TEST_CASE("color: the scale for areas gets steadily lighter from its low to its high end") {
+TEST_CASE("color: the colour scale for areas gets steadily lighter from its low to its high end") {
     CHECK(least_rise(lagoon, 1, colors) >= 0);
     CHECK(least_rise(lagoon, 1, fine) > -one_unit);
     CHECK(luminance(lagoon.at(0)) < 0.07);
     CHECK(luminance(lagoon.at(1)) > 0.8);
 }
 
-TEST_CASE("color: the scale for lines gets steadily darker from its low to its high end") {
+TEST_CASE("color: the colour scale for lines gets steadily darker from its low to its high end") {
     CHECK(least_rise(ember, -1, colors) >= 0);
     CHECK(least_rise(ember, -1, fine) > -one_unit);
     CHECK(luminance(ember.at(0)) > 0.5);
     CHECK(luminance(ember.at(1)) < 0.05);
 }
 
-TEST_CASE("color: the scale for differences goes from blue over white to orange") {
+TEST_CASE("color: the colour scale for differences goes from blue over white to orange") {
     CHECK(balance.at(0.5) == Color{0xff, 0xff, 0xff});
     const Color low = balance.at(0), high = balance.at(1);
     CHECK(low.blue > low.red);
@@ -76,7 +76,8 @@ TEST_CASE("color: neighbouring grades of a colour scale can be distinguished in 
 }
 
 TEST_CASE(
-    "color: a value beyond a scale has the colour of the nearer end, and NaN that of the low end") {
+    "color: a value beyond a colour scale gets the colour of the nearer end, NaN that of the low "
+    "end") {
     CHECK(lagoon.at(-1) == lagoon.at(0));
     CHECK(lagoon.at(2) == lagoon.at(1));
     CHECK(lagoon.at(std::numeric_limits<double>::quiet_NaN()) == lagoon.at(0));

@@ -28,7 +28,7 @@ Extent extent(Vec3 low, Vec3 high) {
 
 }  // namespace
 
-TEST_CASE("plot: an extent includes given discs and points, and can be enlarged") {
+TEST_CASE("plot: an extent (bounding box) includes given discs and points, and can be enlarged") {
     Extent e;
     CHECK(e.empty());
     e.include({1, 2}, 0.5);
@@ -42,7 +42,7 @@ TEST_CASE("plot: an extent includes given discs and points, and can be enlarged"
 }
 
 TEST_CASE(
-    "plot: a plot fills its width or height, with the y axis upwards and one scale for both axes") {
+    "plot: a plot fills the given width or height, with y upwards and one scale for both axes") {
     const Plot wide(extent({0, 0}, {20, 10}), {16, 50}, {.width = 1000, .height = 900});
     CHECK(near(wide.scale, 50));
     CHECK((near(wide.width, 1000) && near(wide.height, 500)));
@@ -52,7 +52,7 @@ TEST_CASE(
     CHECK((near(tall.width, 450) && near(tall.height, 900)));
 }
 
-TEST_CASE("plot: a narrow or low extent is centred, with space around it") {
+TEST_CASE("plot: an area that is very narrow or very low is centred, with space around it") {
     const Plot low(extent({0, 0}, {100, 1}), {0, 0},
                    {.width = 1000, .height = 800, .least_height = 200});
     CHECK((near(low.height, 200) && near(low.low.y, -9.5) && near(low.high.y, 10.5)));
@@ -118,7 +118,8 @@ TEST_CASE(
     CHECK(legend.height(10) == 6 * 20);
 }
 
-TEST_CASE("legend: a long caption is broken between its parts, and a long part between its words") {
+TEST_CASE(
+    "legend: a long caption is wrapped between its parts, and a long part between its words") {
     const std::string dot = " \xc2\xb7 ";
     CHECK(wrapped({"one", "two"}, 1000, 12) == std::vector<std::string>{"one" + dot + "two"});
     CHECK(wrapped({"one", "two"}, 30, 12) == std::vector<std::string>{"one", "two"});
@@ -146,7 +147,8 @@ TEST_CASE(
     CHECK(taken.size() < 20);
 }
 
-TEST_CASE("label: a label is placed off the border, off obstacles and, if possible, off lines") {
+TEST_CASE(
+    "label: a label is placed away from the border, from obstacles and, if possible, from lines") {
     LabelPlaces places({0, 0, 400, 100});
     CHECK(places.place({395, 50}, 5, 30, 12)->right < 395);
     places.keep_free({104, 40, 140, 60});

@@ -57,14 +57,14 @@ TEST_CASE(
     CHECK(text_width("\xe6\x9c\xba", 10) >= 10);
 }
 
-TEST_CASE("svg: the text of a path has one SVG command for each drawing call") {
+TEST_CASE("svg: a path is written with one SVG command for each drawing call") {
     SvgPath path;
     CHECK(path.empty());
     path.move(1, 2.004).horizontal(3).vertical(-4).line(0.5, 0.25).close();
     CHECK(path.text() == "M1 2H3V-4L0.5 0.25Z");
 }
 
-TEST_CASE("svg: a document with any names is well-formed, and closes open elements") {
+TEST_CASE("svg: a document with any names in it is well-formed XML, and open elements are closed") {
     Svg svg(100, 50.5);
     svg.open("g", {{"id", "a\"b<c>&"}, {"opacity", 0.5}, {"fill", Color{255, 0, 16}}});
     svg.title("</title>&");

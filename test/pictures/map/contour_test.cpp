@@ -67,7 +67,7 @@ double length(const std::vector<ContourLine>& lines) {
 }  // namespace
 
 TEST_CASE(
-    "contour: in free space, the line is a counter-clockwise circle whose radius is the reach") {
+    "contour: in free space, the contour line is a circle whose radius is the range of the radio") {
     const Scene scene;
     const Radio weak{.power = {-30}};
     const Transmitter t{.model = Friis{}, .radio = weak, .antenna = {1, -2, 1}, .scene = &scene};
@@ -86,7 +86,7 @@ TEST_CASE(
     CHECK(std::abs(area(lines[0]) / (std::numbers::pi * reach * reach) - 1) < of_smoothing);
 }
 
-TEST_CASE("contour: the line around a hole is clockwise") {
+TEST_CASE("contour: an outer line runs counter-clockwise, the line around a hole runs clockwise") {
     const auto lines = contours(mask([](Vec3 p) { return radius_of(p) < 8 && radius_of(p) > 4; }),
                                 sensitivity, {0.15});
     REQUIRE(lines.size() == 2);
@@ -94,7 +94,8 @@ TEST_CASE("contour: the line around a hole is clockwise") {
     CHECK(area(lines[0]) + area(lines[1]) > 0);
 }
 
-TEST_CASE("contour: details finer than the smoothing, such as teeth of a comb, are removed") {
+TEST_CASE(
+    "contour: details smaller than the smoothing length, such as teeth of a comb, are removed") {
     const auto comb = [](double tooth) {
         return mask([=](Vec3 p) {
             const bool in_tooth = std::fmod(p.y + 20, 3 * tooth) < tooth;
@@ -110,7 +111,7 @@ TEST_CASE("contour: details finer than the smoothing, such as teeth of a comb, a
     for (const Vec3 p : edge[0].points) CHECK(std::abs(p.x) < 2 * smoothing.value);
 }
 
-TEST_CASE("contour: a straight edge stays in place") {
+TEST_CASE("contour: smoothing does not move a straight edge") {
     for (const double at : {-3.0, 0.0, 0.05, 7.5}) {
         const auto lines = contours(mask([=](Vec3 p) { return p.x < at; }), sensitivity, {0.3});
         REQUIRE(lines.size() == 1);
@@ -127,7 +128,7 @@ TEST_CASE("contour: an island too small to be seen is omitted") {
     CHECK(island(1).size() == 1);
 }
 
-TEST_CASE("contour: the line continues to the edge of the map") {
+TEST_CASE("contour: a contour line that does not close ends at the edge of the map") {
     const auto lines = contours(mask([](Vec3 p) { return p.y < 0; }), sensitivity, {0.3});
     REQUIRE(lines.size() == 1);
     const auto [first, last] = std::minmax({lines[0].points.front().x, lines[0].points.back().x});
@@ -137,12 +138,12 @@ TEST_CASE("contour: the line continues to the edge of the map") {
     CHECK(lines[0].points.front().x > lines[0].points.back().x);
 }
 
-TEST_CASE("contour: a map that is above or below the level everywhere has no line") {
+TEST_CASE("contour: if the whole map is above or below the level, there is no contour line") {
     CHECK(contours(map_of([](Vec3) { return -10.0; }), sensitivity, {0.3}).empty());
     CHECK(contours(map_of([](Vec3) { return -90.0; }), sensitivity, {0.3}).empty());
 }
 
-TEST_CASE("contour: lines never cross themselves, for any map") {
+TEST_CASE("contour: on random maps, each line runs from cell to neighbouring cell without jumps") {
     test::Draw draw(5);
     for (int n = 0; n < 20; ++n) {
         CoverageMap map{.columns = 1 + draw.below(40), .rows = 1 + draw.below(40)};

@@ -110,7 +110,7 @@ TEST_CASE(
     CHECK(map.at(0, 0) > map.at(9, 0));
 }
 
-TEST_CASE("coverage: shadowing is left out, whatever its sigma is") {
+TEST_CASE("coverage: shadowing has no effect on a coverage map, whatever its sigma is") {
     const std::string robot = "[[robot]]\nname = \"A\"\nat = [\"0 m\", \"0 m\"]\n";
     const Scenario shadowed =
         field("[propagation]\nmodel = \"log_distance\"\nsigma = \"8 dB\"\n" + robot);
@@ -130,7 +130,7 @@ TEST_CASE("coverage: shadowing is left out, whatever its sigma is") {
     CHECK(random.as<Friis>() == nullptr);
 }
 
-TEST_CASE("coverage: sigma of a model that is not chosen has no effect") {
+TEST_CASE("coverage: the key `sigma` has no effect if the chosen model does not use this key") {
     Built built(
         field("[propagation]\nmodel = \"friis\"\nsigma = \"8 dB\"\n[[robot]]\nname = \"A\"\nat = "
               "[\"0 m\", \"0 m\"]\n"));
@@ -162,7 +162,7 @@ TEST_CASE("coverage: an empty rectangle, or an absurd number of cells, is refuse
     CHECK_THROWS_AS(coverage(t, {0, 0}, {1, 1}, most_coverage_cells + 1), std::invalid_argument);
 }
 
-TEST_CASE("coverage: with two robots, each cell has the level of the stronger one") {
+TEST_CASE("coverage: with two transmitters, each cell has the higher of the two levels") {
     const Scene scene;
     const Transmitter west{.model = Friis{}, .antenna = {0, 0, 1}, .scene = &scene};
     Transmitter east = west;

@@ -64,9 +64,7 @@ TEST_CASE("picture: a closed door is drawn as a wall, an open door as a dashed o
     }
 }
 
-TEST_CASE(
-    "picture, scene: stairs are drawn on both of their storeys, and listed once, from foot to "
-    "head") {
+TEST_CASE("picture, scene: stairs are drawn on both storeys that they connect, and listed once") {
     const Scenario scenario = load_scenario(ROVERNET_EXAMPLES "/storeys/storeys.toml", {});
     for (const int storey : {1, 2}) {
         PictureOptions options;
@@ -82,7 +80,7 @@ TEST_CASE(
     CHECK(stairs_of(flat, Storeys()).empty());
 }
 
-TEST_CASE("scene: doors are listed with their times and states") {
+TEST_CASE("scene: the report of a scene lists each door with its times and whether it is closed") {
     const Scenario scenario = load_scenario(ROVERNET_EXAMPLES "/emulate/door.toml", {});
     const Network network(network_settings(scenario));
     const auto is_closed = [&](int s) {

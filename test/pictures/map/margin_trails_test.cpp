@@ -114,7 +114,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "margins: with the model `disc` a trail shows only link or gap, and a long list of robots is "
+    "margins: with the model `disc` a trail shows only where a link exists, and a long list is "
     "shortened") {
     std::string text = road + "[propagation]\nmodel = \"disc\"\nrange = \"60 m\"\n";
     for (int i = 0; i < 4; ++i) {
@@ -129,7 +129,7 @@ TEST_CASE(
     CHECK(has(svg, "and 2 more robots"));
 }
 
-TEST_CASE("margins: a partner in --margin-to that is unknown or named twice is refused") {
+TEST_CASE("margins: in --margin-to, an unknown robot or a robot named twice is refused") {
     const PictureOptions unknown{.trails = true, .margin_to = {"wst"}};
     CHECK_THROWS_WITH_AS(draw_svg(read(road), unknown), doctest::Contains("\"west\""),
                          std::invalid_argument);
@@ -138,9 +138,7 @@ TEST_CASE("margins: a partner in --margin-to that is unknown or named twice is r
                          InputError);
 }
 
-TEST_CASE(
-    "margins: the part of a trail between two times may begin and end between corners of the "
-    "path") {
+TEST_CASE("margins: a trail between two times can begin and end between two corners of the path") {
     const Scenario s = read(road);
     Network network(network_settings(s));
     const auto trails = std::make_shared<Trails>();

@@ -68,7 +68,9 @@ struct Files {
 
 }  // namespace
 
-TEST_CASE("picture: robots of a movement file are drawn, with and without tables [[robot]]") {
+TEST_CASE(
+    "picture: robots of a movement file are drawn, whether or not the scenario has tables "
+    "[[robot]]") {
     Files files;
     CHECK(circles(draw_svg(load_scenario(files.nodes, {}), {.at = start_of_run + 2s})) == 2);
     for (const int own : {0, 1, 7}) {

@@ -142,7 +142,7 @@ TEST_CASE("picture: the caption names the scenario, the time and the model with 
     CHECK(has(svg, "raytrace_2007: coefficient 20, wall_factor 0.3"));
 }
 
-TEST_CASE("picture: the caption names each model that robots use, once") {
+TEST_CASE("picture: the caption names each propagation model in use exactly once") {
     const std::string disc = "propagation = { model = \"disc\", range = \"5 m\" }\n";
     const std::string all = draw_svg(scenario(robot("a", 0, 0, disc) + robot("b", 9, 0, disc)),
                                      {.coverage = {"a"}, .cells = 9});
@@ -249,8 +249,8 @@ TEST_CASE("picture: coverage has a heat map, a colour bar, and a contour for eac
 }
 
 TEST_CASE(
-    "picture: the coverage of several robots shows the strongest robot at each place, for one kind "
-    "of receiver") {
+    "picture: the coverage of several robots shows at each point the level of the strongest "
+    "robot") {
     const auto text = robot("A", 0, 0) + robot("B", 90, 9, "radio = { power = \"20 dBm\" }\n") +
                       robot("C", 45, 0, "radio = { sensitivity = \"-90 dBm\" }\n");
     PictureOptions options{.coverage = {"A", "B"}, .cells = 500};
@@ -268,8 +268,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "picture: the coverage of several robots shows ranges if all have the model `disc`, and is "
-    "refused if only some have it") {
+    "picture: for the coverage of several robots, all of them or none must have the model `disc`") {
     const auto disc = [](int range) {
         return fmt::format("propagation = {{ model = \"disc\", range = \"{} m\" }}\n", range);
     };
@@ -305,7 +304,7 @@ TEST_CASE("picture: the heat map is lightest at the position of the robot, and n
     CHECK(std::abs(number(frame, "y") + (best_row + 0.5) * cell_y - number(b, "cy")) < cell_y);
 }
 
-TEST_CASE("picture: the coverage of a shadowed model is labelled as the median") {
+TEST_CASE("picture: with shadowing, the coverage is labelled as the median") {
     const auto text = [](const char* sigma) {
         return fmt::format("[propagation]\nmodel = \"log_distance\"\nsigma = \"{}\"\n", sigma) +
                robot("A", 0, 0);
@@ -315,7 +314,8 @@ TEST_CASE("picture: the coverage of a shadowed model is labelled as the median")
     CHECK_FALSE(has(draw_svg(scenario(text("0 dB")), options), "median"));
 }
 
-TEST_CASE("picture: the caption has shadowing and its sigma beside the model, except for sigma 0") {
+TEST_CASE(
+    "picture: beside the model, the caption names shadowing and its sigma, unless sigma is 0") {
     const auto svg = [](const char* model, const char* sigma) {
         return draw_svg(scenario(fmt::format("[propagation]\nmodel = \"friis\"\n[shadowing]\n"
                                              "model = \"{}\"\nsigma = \"{}\"\n",
@@ -356,7 +356,8 @@ TEST_CASE("picture: trails are drawn on request") {
     CHECK_FALSE(has(draw_svg(rescue(), {.at = start_of_run + 30s}), "trail"));
 }
 
-TEST_CASE("picture: several materials have different patterns, with a line in the legend") {
+TEST_CASE(
+    "picture: walls of different materials have different patterns, explained in the legend") {
     OccupancyGrid grid = test::drawn_map({"##..", "..##"});
     for (std::size_t i = 0; i < grid.cells.size(); ++i) {
         grid.cell_materials.push_back(static_cast<std::uint8_t>(i / 4));
@@ -500,8 +501,8 @@ TEST_CASE("picture: the coverage on another storey includes the loss of the ceil
 }
 
 TEST_CASE(
-    "picture: the coverage for the radio of another robot uses the height and gain of that robot's "
-    "antenna") {
+    "picture: the coverage for the radio of another robot uses that robot's antenna height and "
+    "gain") {
     const std::string access_point =
         "[propagation]\nmodel = \"friis\"\n[[robot]]\nname = \"AP\"\nat = [\"0 m\", \"0 m\"]\n"
         "radio = { antenna_height = \"5 m\" }\n";
@@ -546,7 +547,7 @@ TEST_CASE("picture: drawing the links among too many robots is refused") {
     CHECK_THROWS_WITH_AS(draw_svg(s, {.links = true}), doctest::Contains("at most 5000"), RunError);
 }
 
-TEST_CASE("picture: the width changes only the number of pixels") {
+TEST_CASE("picture: the requested width changes only the number of pixels, not the drawing") {
     const auto body = [](const std::string& svg) { return svg.substr(svg.find("viewBox")); };
     const std::string usual = draw_svg(rescue(), {.axes = true});
     const std::string large = draw_svg(rescue(), {.axes = true, .width = 3000});
@@ -608,7 +609,8 @@ TEST_CASE("picture: a PDF has the same bytes each time, and a pixel becomes a po
     CHECK(has(unpacked(pdf), "/MediaBox [ 0 0 600 "));
 }
 
-TEST_CASE("picture: a PNG has the picture's size, and needs rsvg-convert") {
+TEST_CASE(
+    "picture: a PNG has the size of the SVG picture; without rsvg-convert, an error is reported") {
     test::TemporaryFolder folder;
     const std::string svg = draw_svg(rescue(), {.width = 600});
     const std::string path = folder.path("p.png");

@@ -99,7 +99,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "route lines: a search is drawn as a ring around each robot that sent the last route request") {
+    "route lines: each robot that sent or forwarded the last route request is drawn with a ring") {
     const std::string early = drawn(500ms, false, true);
     CHECK(in_group(early, "search", "circle").empty());
     CHECK(has(early, "no route request so far"));
@@ -112,7 +112,9 @@ TEST_CASE(
     CHECK(has(svg, "sent the last request"));
 }
 
-TEST_CASE("route lines: a DSR search is drawn as one search, although each robot sends a packet") {
+TEST_CASE(
+    "route lines: with DSR, packets of several robots for the same search are drawn as one "
+    "search") {
     PictureOptions options{.at = start_of_run + 5s, .search = true};
     const std::string svg = draw_svg(row("dsr"), options);
     CHECK(in_group(svg, "search", "circle").size() == 4);  // all but the target
@@ -120,7 +122,7 @@ TEST_CASE("route lines: a DSR search is drawn as one search, although each robot
 }
 
 // Requests of n0 and of n4 for n5, which nobody reaches, cross in the middle of the row.
-TEST_CASE("route lines: two searches at the same time are kept apart") {
+TEST_CASE("route lines: two simultaneous route searches are not mixed up") {
     for (const char* protocol : {"aodv", "dsr"}) {
         CAPTURE(protocol);
         PictureOptions options{.at = start_of_run + 3500ms, .search = true};

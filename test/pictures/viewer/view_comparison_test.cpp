@@ -43,7 +43,7 @@ test::ViewReader written(const ViewComparison& made) {
 
 }  // namespace
 
-TEST_CASE("view of a comparison: messages are matched by origin and number in both files") {
+TEST_CASE("view of a comparison: messages of the two traces are matched by origin and number") {
     const test::ViewReader view = written(comparison());
     constexpr double nobody = 4'294'967'295;
     CHECK(view.numbers("compare.messages") == std::vector<double>{1, nobody, nobody});
@@ -67,7 +67,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "view of a comparison: the file has the first difference, with null for a trace that ended") {
+    "view of a comparison: the file has the first difference, with null for a trace that has "
+    "already ended") {
     const test::ViewReader view = written(comparison());
     const Table& first = *view.head().find("compare")->table()->find("first")->table();
     CHECK(*first.find("field")->string() == "time");

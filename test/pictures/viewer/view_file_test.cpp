@@ -13,7 +13,7 @@ namespace view_file_test {
 using namespace rovernet;
 using Numbers = std::vector<double>;
 
-TEST_CASE("view file: columns of each type are read back unchanged") {
+TEST_CASE("view file: written columns of every data type are read back unchanged") {
     ViewFile file;
     file.add("a", std::vector<std::uint8_t>{0, 255});
     file.add("b", std::vector<double>{-1.5, 1e300});

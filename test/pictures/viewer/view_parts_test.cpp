@@ -89,7 +89,7 @@ std::string begin_of(const std::string& path, std::size_t size) {
 }  // namespace
 
 TEST_CASE(
-    "view parts: each message has its number of frames, and the number of the block with its first "
+    "view parts: for each message, the file has the number of frames and the block of the first "
     "frame") {
     const Recorded run(example("detour"));
     const test::ViewReader whole(view_of_trace(run.trace(), {}).bytes);
@@ -112,7 +112,8 @@ TEST_CASE(
     CHECK(without > 0);
 }
 
-TEST_CASE("view parts: the number of messages includes only messages of applications") {
+TEST_CASE(
+    "view parts: only messages of applications are counted as messages, not routing packets") {
     const Recorded run(std::string(ROVERNET_EXAMPLES) + "/relay/routes.toml");
     const ViewedRun viewed = view_of_trace(run.trace(), {});
     const test::ViewReader view(viewed.bytes);
@@ -185,7 +186,7 @@ at = ["500024.0 m", "5400012.0 m"]
     CHECK(view.numbers("walls.y") == y);
 }
 
-TEST_CASE("view parts: a page without the map has no doors") {
+TEST_CASE("view parts: a page that leaves out the map also leaves out walls, doors and stairs") {
     const Recorded run(example("storeys"));
     ViewChoice choice;
     choice.map = false;
@@ -197,7 +198,8 @@ TEST_CASE("view parts: a page without the map has no doors") {
     CHECK(view.numbers("walls.x").empty());
 }
 
-TEST_CASE("view parts: without the map, reasons why a robot missed a message mention no walls") {
+TEST_CASE(
+    "view parts: if a page has no map, its reasons for missed messages do not mention walls") {
     const Recorded run(example("rescue"));
     const auto reasons = [&](bool map) {
         ViewChoice choice;

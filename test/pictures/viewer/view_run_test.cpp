@@ -140,7 +140,7 @@ constexpr std::array examples{"rescue/rescue.toml", "storeys/storeys.toml", "det
 
 }  // namespace
 
-TEST_CASE("view of a run: frames and outcomes of receptions equal the records") {
+TEST_CASE("view of a run: frames and outcomes of receptions equal those recorded in the trace") {
     for (const char* example : examples) {
         CAPTURE(example);
         const Recorded run(example);
@@ -185,7 +185,9 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("view of a run: at each zoom level of the time line, outcomes add up to the receptions") {
+TEST_CASE(
+    "view of a run: at each zoom level of the time line, the counted outcomes add up to all "
+    "receptions") {
     const Recorded run("detour/detour.toml");
     const test::ViewReader view(view_of_trace(run.trace(), {}).bytes);
     std::map<double, double> expected;
@@ -239,8 +241,7 @@ std::map<std::string, std::vector<Series>> series_of(const test::ViewReader& vie
 }  // namespace
 
 TEST_CASE(
-    "view of a run: the last or largest value of a chart equals the run's metric, and receptions "
-    "add up to their counts") {
+    "view of a run: charts agree with the metrics of the run and with the counted receptions") {
     for (const char* example : {"rescue/rescue.toml", "detour/detour.toml", "patrol/patrol.toml"}) {
         CAPTURE(example);
         const Recorded run(example, {"trace.links=true"});
@@ -270,7 +271,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "view of a run: chart series of channel and topology equal values computed from the records") {
+    "view of a run: charts of channel and topology agree with values computed from the records") {
     const Recorded run("patrol/patrol.toml", {"trace.links=true"});
     const test::ViewReader view(view_of_trace(run.trace(), {}).bytes);
     auto series = series_of(view);
@@ -307,7 +308,9 @@ TEST_CASE(
 }
 
 // While a sends a long message, it begins to send a short message and another long message.
-TEST_CASE("view of a run: overlapping frames of one robot keep their receptions and airtimes") {
+TEST_CASE(
+    "view of a run: if frames of one robot overlap, each frame keeps its own receptions and "
+    "airtime") {
     for (const auto& [rate, long_ms, short_ms] :
          {std::tuple{"250 kb/s", 48.192, 0.224}, std::tuple{"100 b/s", 120'000.192, 80.192}}) {
         CAPTURE(rate);
@@ -354,7 +357,7 @@ count = 1
     }
 }
 
-TEST_CASE("view of a run: options leave out frames, payloads and the map") {
+TEST_CASE("view of a run: frames, payloads and the map can be left out by options") {
     const Recorded run("rescue/rescue.toml");
     const auto all = frames_of(run.trace());
     ViewChoice choice;
@@ -391,7 +394,7 @@ TEST_CASE("view of a run: the file has a map with storeys, doors and stairs") {
     CHECK(view.numbers("walls.x").size() == 4 * storeys.size());
 }
 
-TEST_CASE("view of a run: the error for an unsuitable input names the file") {
+TEST_CASE("view of a run: if the input is missing or not a trace, the error names the file") {
     const test::TemporaryFolder folder;
     CHECK(error_of(folder.write("a.mcap", "no trace")).find("a.mcap") != std::string::npos);
     CHECK(error_of(folder.path("missing.mcap")).find("missing.mcap") != std::string::npos);

@@ -83,7 +83,7 @@ struct Run {
 
 // A RERR with flag N (6.12) tells that a repaired route is longer; the model leaves it out.
 TEST_CASE(
-    "aodv on graphs: packet counts equal those of a separate model of the rules, also after a node "
+    "aodv on graphs: packet counts equal those of an independent model, also after a node "
     "vanishes") {
     const Aodv rings{}, repair{.local_repair = true}, flat{.rings = false};
     struct Case {

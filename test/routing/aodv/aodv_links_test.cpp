@@ -62,7 +62,7 @@ void learn_for_long(AodvNode& n, std::uint32_t to, std::uint32_t over, std::uint
 }  // namespace
 
 TEST_CASE(
-    "aodv 6.2: a route is used also if the route table's entry for its next hop has expired") {
+    "aodv 6.2: a route is used even if the route table's entry for its next hop has expired") {
     AodvNode n;
     learn_for_long(n, 5, 1);
     learn_for_long(n, 6, 2);
@@ -300,7 +300,8 @@ TEST_CASE("aodv 6.11: a RERR is forwarded to the neighbours that use the broken 
     CHECK(n.route(5)->until == n.link.time + 15s);
 }
 
-TEST_CASE("aodv 6.11, profile ns2: RERRs are broadcast, and forwarded after the jitter") {
+TEST_CASE(
+    "aodv 6.11, profile ns2: RERRs are broadcast, and forwarded after a random delay (jitter)") {
     AodvNode n({.profile = AodvProfile::ns2, .local_repair = false});
     n.pass_reply(7, 2, 5, 1);
     n.learn(6, 1, 4);
@@ -316,7 +317,9 @@ TEST_CASE("aodv 6.11, profile ns2: RERRs are broadcast, and forwarded after the 
     CHECK(n.sent<aodv::Error>()[1].first.next_hop == everyone);
 }
 
-TEST_CASE("aodv 6.11: a broken link ends each valid route over it once, and no other routes") {
+TEST_CASE(
+    "aodv 6.11: a broken link ends the valid routes over this link, and does not change other "
+    "routes") {
     AodvNode n;
     n.learn(5, 1, 10);
     n.learn(6, 1, 20);
@@ -339,8 +342,8 @@ TEST_CASE("aodv 6.11: a broken link ends each valid route over it once, and no o
 }
 
 TEST_CASE(
-    "aodv, rule A14: a RERR with the sequence number of the node's route ends the route and "
-    "increments this number") {
+    "aodv, rule A14: if a RERR has the route's own sequence number, the route ends and its number "
+    "is incremented") {
     AodvNode n;
     n.learn(5, 1, 20);
     n.hear(1, aodv::Error{.lost = {{NodeId{5}, 20}}});
@@ -398,8 +401,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "aodv 6.12: repairs begin in the order in which messages came; a lost route is reported once a "
-    "message needs it") {
+    "aodv 6.12: repairs begin in the order in which messages came; lost routes without messages "
+    "are reported later") {
     AodvNode n({.local_repair = true});
     n.pass_reply(7, 2, 5, 1);
     n.pass_reply(7, 2, 6, 1);
@@ -421,7 +424,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "aodv 6.12: the TTL of a repair is at least half the number of hops to the source, plus 2") {
+    "aodv 6.12: the TTL of a repair request is at least half the number of hops to the source, "
+    "plus 2") {
     AodvNode n({.local_repair = true});
     n.pass_reply(7, 2, 5, 1);
     const MessageId id = n.link.message_from(NodeId{7}, NodeId{5});
@@ -433,8 +437,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "aodv 6.12: the wait for a repair follows from its request's TTL, also if this TTL is the "
-    "network's diameter") {
+    "aodv 6.12: the waiting time of a repair follows from the TTL of its request, even at the "
+    "largest TTL") {
     AodvNode n({.net_diameter = 10, .local_repair = true});
     n.pass_reply(7, 2, 5, 1);
     const MessageId id = n.link.message_from(NodeId{7}, NodeId{5});
@@ -478,7 +482,7 @@ TEST_CASE("aodv 6.12: if the repaired route has the same length, no RERR is sent
 }
 
 TEST_CASE(
-    "aodv 6.12: if a route gets a new next hop before a frame to the old one fails, no repair is "
+    "aodv 6.12: if a route has a new next hop when a frame to the old next hop fails, no repair is "
     "made") {
     AodvNode n({.local_repair = true});
     n.pass_reply(7, 2, 5, 1);
@@ -509,7 +513,8 @@ TEST_CASE("aodv 6.12: no repair is made far from the destination, or for a node'
     CHECK(n.link.drops.size() == 2);
 }
 
-TEST_CASE("aodv 6.12: a RERR of a repaired route is forwarded, and changes no route") {
+TEST_CASE(
+    "aodv 6.12: a RERR with flag N (route was repaired) is forwarded, but leaves the route valid") {
     AodvNode n;
     n.pass_reply(7, 2, 5, 1);
     n.hear(1, aodv::Error{.is_repaired = true, .lost = {{NodeId{5}, 30}}});
@@ -541,7 +546,9 @@ TEST_CASE(
     CHECK(answers({.profile = AodvProfile::ns2}, 0ms));
 }
 
-TEST_CASE("aodv 6.13: sequence numbers of broken routes are kept as long as any route may last") {
+TEST_CASE(
+    "aodv 6.13: the sequence number of a broken route is kept as long as the longest-lived route "
+    "may last") {
     const auto delete_period = [](Aodv aodv) { return AodvRules::of(aodv).delete_period; };
     CHECK(delete_period({}) == 15s);
     CHECK(delete_period({.profile = AodvProfile::ns2}) == 50s);
@@ -607,8 +614,7 @@ TEST_CASE("aodv: a broadcast goes one hop; if it cannot be sent, it is dropped w
     CHECK(got[0].fate == Fate::arrived);
 }
 
-TEST_CASE(
-    "aodv: the drop of an unsent message is recorded, that of an unsent control packet is not") {
+TEST_CASE("aodv: a message that cannot be sent is recorded as dropped, a control packet is not") {
     for (const SendResult result : {SendResult::queue_full, SendResult::off}) {
         AodvNode n;
         n.learn(5, 1, 4);

@@ -229,7 +229,7 @@ TEST_CASE(
     CHECK(findings(2000, {.rules = rules}, 1).loops > 0);
 }
 
-TEST_CASE("aodv: sequence numbers wrap around") {
+TEST_CASE("aodv: routes have no loop while sequence numbers wrap around") {
     AodvRules rules = short_lived();
     rules.first_number = 0xfffffff0;
     const Findings found = findings(200, {.rules = rules});

@@ -115,7 +115,7 @@ TEST_CASE("aodv: runs do not depend on how the nodes are numbered") {
     }
 }
 
-TEST_CASE("aodv: adding a node without links changes nothing") {
+TEST_CASE("aodv: an additional node without links does not change which packets are sent") {
     for (std::uint32_t seed = 1; seed <= 20; ++seed) {
         CHECK(run(seed, {}).sent == run(seed, {.one_more = true}).sent);
     }

@@ -50,7 +50,7 @@ aodv::Reply reply(std::uint32_t to, std::uint32_t number, std::uint32_t originat
 
 }  // namespace
 
-TEST_CASE("aodv 6.4: no request goes beyond the network's diameter") {
+TEST_CASE("aodv 6.4: the TTL of a request is never above the network's diameter") {
     using Ttls = std::vector<int>;
     CHECK(ttls({.net_diameter = 1}) == Ttls{1, 1, 1});
     CHECK(ttls({.net_diameter = 2}) == Ttls{1, 2, 2, 2});
@@ -101,7 +101,7 @@ TEST_CASE("aodv 6.3: a search ends if no message waits for it") {
 }
 
 TEST_CASE(
-    "aodv 6.3: requests above ten a second are sent later, and their messages wait until then") {
+    "aodv 6.3: only ten requests are sent each second; further requests and their messages wait") {
     AodvNode n({.rings = false}, 40);
     for (std::uint32_t to = 10; to < 35; ++to) n.send(to);
     n.run(start + 999ms);
@@ -118,8 +118,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "aodv 6.3, profile ns2: a reply before the first request of its search does not change the "
-    "time per hop") {
+    "aodv 6.3, profile ns2: if a reply comes before the first request of a search, no time per hop "
+    "is measured") {
     AodvNode n({.profile = AodvProfile::ns2}, 40);
     n.link.time += 100s;
     for (std::uint32_t to = 10; to < 21; ++to) n.send(to);
@@ -160,7 +160,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "aodv 6.3, profile ns2: a reply of the destination itself also counts for the time per hop") {
+    "aodv 6.3, profile ns2: the time per hop is also measured if the destination itself replies") {
     AodvNode n({.profile = AodvProfile::ns2});
     n.send(5);
     n.link.time += 800ms;
@@ -176,8 +176,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "aodv 6.3, profile ns2: after a failed search, the next one for a destination begins 10 s "
-    "later") {
+    "aodv 6.3, profile ns2: after a failed search, a new search for the same destination waits 10 "
+    "s") {
     AodvNode n({.profile = AodvProfile::ns2});
     n.send(5);
     while (n.link.drops.empty()) n.wait();
@@ -192,7 +192,9 @@ TEST_CASE(
     CHECK(asked_for(n, 5) == before + 1);
 }
 
-TEST_CASE("aodv 6.1: a node's own sequence number and those of destinations wrap around") {
+TEST_CASE(
+    "aodv 6.1: after the largest sequence number comes 0, for the node itself and for "
+    "destinations") {
     AodvRules rules = AodvRules::of({});
     rules.first_number = 0xffffffff;
     AodvNode n;
@@ -211,7 +213,9 @@ TEST_CASE("aodv 6.1: a node's own sequence number and those of destinations wrap
     CHECK(n.route(7)->number == std::optional<std::uint32_t>(0));
 }
 
-TEST_CASE("aodv 6.2: a route has the lifetime of its reply, and a later reply never shortens it") {
+TEST_CASE(
+    "aodv 6.2: a route lasts as long as its reply says, and later replies never shorten a valid "
+    "route") {
     AodvNode n;
     n.learn(5, 1, 10);
     CHECK(n.route(5)->until == start + 3s);
@@ -235,7 +239,7 @@ TEST_CASE("aodv 6.2: a route has the lifetime of its reply, and a later reply ne
 }
 
 TEST_CASE(
-    "aodv 6.5: a route to a neighbour lasts at least 3 s after the neighbour is heard, and is not "
+    "aodv 6.5: when a neighbour is heard, the route to it is extended to at least 3 s, never "
     "shortened") {
     AodvNode n;
     n.hear(2, request(2, 9, 1), 1);  // a route of 5.52 s
@@ -248,7 +252,9 @@ TEST_CASE(
     CHECK(n.route(2)->since == start + 10s);
 }
 
-TEST_CASE("aodv 6.2: a route to a neighbour whose sequence number is unknown accepts any number") {
+TEST_CASE(
+    "aodv 6.2: if a neighbour's sequence number is unknown, a reply with any sequence number is "
+    "accepted") {
     AodvNode n;
     n.forward(7, 2, 9);
     n.hear(2, request(7, 9), 3);
@@ -296,7 +302,7 @@ TEST_CASE("aodv 6.5: the ids of requests are remembered for each originator, for
 }
 
 TEST_CASE(
-    "aodv 6.6.2: a node that answered for the destination reports a break on either side to the "
+    "aodv 6.6.2: a node that replied for the destination reports a broken link on one side to the "
     "other side") {
     AodvNode n;
     n.learn(5, 1, 20, 3);
@@ -347,7 +353,7 @@ TEST_CASE("aodv 6.7: a reply does not travel beyond its TTL") {
 }
 
 TEST_CASE(
-    "aodv 6.3: a search repeats its request in time, even while an earlier search still waits") {
+    "aodv 6.3: a search repeats its request on time, even while another search waits for a reply") {
     AodvNode n;
     n.send(5);
     n.run(start + 2s);  // waits until 4.72 s
@@ -383,7 +389,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "aodv 6.7: a forwarded reply extends the reverse route, and both ends learn of later breaks") {
+    "aodv 6.7: a forwarded reply extends the reverse route; later breaks are reported to both "
+    "ends") {
     AodvNode n;
     n.hear(2, request(7, 5), 3);
     n.link.time += 4s;
@@ -454,7 +461,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("aodv: with all route lifetimes 0, the run still ends") {
+TEST_CASE("aodv: if all lifetimes of routes are 0, the run still ends") {
     AodvNode n({.active_route_timeout = Duration{0}, .my_route_timeout = Duration{0}});
     n.send(5);
     n.learn(5, 1, 10);

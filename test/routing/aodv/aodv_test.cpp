@@ -17,7 +17,7 @@ using namespace std::chrono_literals;
 using test::AodvNode;
 using test::request;
 
-TEST_CASE("aodv 5: packets have the bytes of the RFC, and are read back") {
+TEST_CASE("aodv 5: packets have exactly the bytes that the RFC defines, and can be decoded again") {
     aodv::Request asked = request(1, 2, 0x01020304, 7);
     const std::string bytes = aodv::to_bytes(asked);
     CHECK(bytes == std::string("\1\x08\0\0\1\2\3\4\0\0\0\2\0\0\0\0\0\0\0\1\0\0\0\7", 24));
@@ -42,7 +42,7 @@ TEST_CASE("aodv 5: packets have the bytes of the RFC, and are read back") {
 }
 
 TEST_CASE(
-    "aodv 6.1: a node's sequence number grows with its request; its reply has at least the "
+    "aodv 6.1: each request increments the node's sequence number; a reply has at least the "
     "requested number") {
     AodvNode n;
     n.send(5);
@@ -81,7 +81,8 @@ TEST_CASE(
     CHECK(n.route(5)->is_valid);
 }
 
-TEST_CASE("aodv 6.2: a message extends its routes to source, destination, last hop and next hop") {
+TEST_CASE(
+    "aodv 6.2: a message extends the routes to its source, destination, last hop and next hop") {
     AodvNode n;
     n.learn(5, 1, 10, 3);
     n.hear(2, request(7, 9), 3);
@@ -138,8 +139,8 @@ TEST_CASE("aodv 6.3: a node sends at most ten requests a second") {
 }
 
 TEST_CASE(
-    "aodv 6.5: a request is forwarded once, within its TTL, with the destination's sequence number "
-    "that the node knows") {
+    "aodv 6.5: a request is forwarded once, within its TTL, with the newest known destination "
+    "sequence number") {
     AodvNode n;
     n.learn(5, 1, 20, 3);
     n.link.time += 4s;  // broken: number 21
@@ -188,7 +189,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "aodv 6.7: a reply is forwarded along the reverse route if the route in it was accepted") {
+    "aodv 6.7: a node forwards a reply along the reverse route if it accepted the route in the "
+    "reply") {
     AodvNode n;
     n.hear(2, request(7, 5), 3);
     const aodv::Reply reply{

@@ -74,7 +74,8 @@ TEST_CASE("route table: expired routes are removed, so the table does not grow")
 }
 
 TEST_CASE(
-    "seen ids: each request id counts as new once, in any order within 64 ids, also around 2^32") {
+    "seen ids: each request id is new only once, even if ids come in mixed order or wrap around at "
+    "2^32") {
     for (const std::uint32_t first : {0U, 0xffffffe0U, 0x7fffffe0U}) {
         SeenIds seen;
         std::set<std::uint32_t> noted;
@@ -88,7 +89,9 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("seen ids: after a higher id, older ids stay known; unseen ids up to 64 lower are new") {
+TEST_CASE(
+    "seen ids: after a higher id, seen ids stay known, and an unseen id up to 64 lower counts as "
+    "new") {
     for (const std::uint32_t step : {1U, 63U, 64U, 65U, 1000U}) {
         SeenIds seen;
         CHECK(seen.note(a, 100, start, 5s));

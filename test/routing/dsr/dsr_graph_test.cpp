@@ -84,7 +84,7 @@ struct Run {
 
 }  // namespace
 
-TEST_CASE("dsr on graphs: packet counts equal counts by hand, also after a node vanishes") {
+TEST_CASE("dsr on graphs: packet counts equal those counted by hand, also after a node vanishes") {
     struct Case {
         const char* name;
         std::size_t nodes;

@@ -81,7 +81,9 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("dsr 8.3.6: a message is salvaged at most as often as the parameter salvage allows") {
+TEST_CASE(
+    "dsr 8.3.6: a message is salvaged (sent by another route) at most as often as the key "
+    "`salvage` allows") {
     for (const int most : {15, 2, 0}) {
         DsrNode n({.salvage = most});
         n.learn(path({7, 0, 4, 5}));
@@ -124,7 +126,9 @@ TEST_CASE("dsr: a source whose first link breaks uses another route, or searches
     CHECK(n.data().back().next_hop == NodeId{3});
 }
 
-TEST_CASE("dsr 8.3.5: a node that receives an error forgets the link, and forwards the error") {
+TEST_CASE(
+    "dsr 8.3.5: a node that receives a route error forgets the broken link, and forwards the "
+    "error") {
     for (const std::uint32_t next : {0U, 9U}) {  // on the way, and overheard
         DsrNode n;
         n.learn(path({0, 4, 5, 6}));
@@ -138,7 +142,7 @@ TEST_CASE("dsr 8.3.5: a node that receives an error forgets the link, and forwar
 }
 
 TEST_CASE(
-    "dsr 3.4.4: a route error is repeated in the next network-wide request if this is sent within "
+    "dsr 3.4.4: a route error is repeated in the next network-wide request, if that is sent within "
     "1 s") {
     for (const Duration age : {0ms, 1500ms}) {
         DsrNode n;
@@ -164,7 +168,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "dsr 3.4.3: a node that overhears a message on a detour to this node sends the source a "
+    "dsr 3.4.3: if a node overhears a message that takes a detour to it, it sends the source a "
     "shorter route") {
     DsrNode n;
     n.learn(path({7, 3, 2, 0, 5}));
@@ -189,7 +193,9 @@ TEST_CASE(
     CHECK(n.sent(dsr::reply_kind).size() == 2);
 }
 
-TEST_CASE("dsr 3.3.1: overheard packets give routes over the neighbour that sent them") {
+TEST_CASE(
+    "dsr 3.3.1: from an overheard packet, a node learns routes over the neighbour that sent the "
+    "packet") {
     DsrNode n;
     n.learn(path({7, 3, 2, 5}));
     n.send(5, 7);
@@ -213,8 +219,8 @@ TEST_CASE("dsr: a reply whose next hop is gone is not sent over the broken link 
 }
 
 TEST_CASE(
-    "dsr, profile ns2: a message without a next hop waits at the node, which sends neighbours a "
-    "request") {
+    "dsr, profile ns2: a message without a next hop waits at the node, which asks its neighbours "
+    "for a route") {
     DsrNode n({.profile = DsrProfile::ns2});
     n.learn(path({7, 3, 0, 4, 5}));
     n.send(5, 7);

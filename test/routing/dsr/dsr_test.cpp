@@ -19,7 +19,7 @@ using test::Path;
 using test::path;
 using test::values;
 
-TEST_CASE("dsr 6: packets have the bytes of the RFC, and are read back") {
+TEST_CASE("dsr 6: packets have exactly the bytes that the RFC defines, and can be decoded again") {
     const auto message = [](const dsr::Packet& packet, std::uint32_t from, std::uint32_t to) {
         return Message{.origin = NodeId{from}, .to = NodeId{to}, .payload = dsr::to_bytes(packet)};
     };
@@ -97,7 +97,8 @@ TEST_CASE("dsr: packets in traces have the format of ns-2") {
 }
 
 TEST_CASE(
-    "dsr 4.1: the cache has room for 30 own and 64 other routes, and returns the shortest route") {
+    "dsr 4.1: the cache holds 30 routes from the node's own searches and 64 other routes, and "
+    "finds the shortest") {
     dsr::Cache cache;
     using enum dsr::Cache::Origin;
     for (std::uint32_t i = 100; i < 140; ++i) cache.add(path({0, i, i + 100}), own, {});
@@ -182,7 +183,7 @@ TEST_CASE(
 
 // Each message waits alone, and is dropped after 30 s without an answer.
 TEST_CASE(
-    "dsr 4.3: after a failed search, each new message starts a search with longer waits between "
+    "dsr 4.3: after a failed search, later searches for the same node wait longer between "
     "requests") {
     DsrNode n;
     for (int message = 0; message < 6; ++message) {
@@ -208,7 +209,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "dsr 8.2.2: the target answers each copy of a request along its path, and stores the path") {
+    "dsr 8.2.2: the target answers every copy of a request, along the path that the copy took") {
     DsrNode n;
     CHECK(n.request(path({7, 3}), 0) == Fate::arrived);
     CHECK(n.request(path({7, 4, 2}), 0) == Fate::arrived);

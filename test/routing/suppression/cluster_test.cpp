@@ -85,7 +85,8 @@ constexpr Time settled = start_of_run + 60s;
 }  // namespace
 
 TEST_CASE(
-    "cluster: a node without neighbours is a head, and later joins a head with a lower name hash") {
+    "cluster: a node without neighbours is a cluster head, and later joins a head with a lower "
+    "name hash") {
     Member node;
     CHECK(node.relays());  // no cluster yet
     CHECK(node.tells() == NodeId{5});
@@ -150,7 +151,7 @@ TEST_CASE("cluster: HELLOs are 0.75 to 1.25 periods apart, and a node that is of
     CHECK(node.tells() == NodeId{5});
 }
 
-TEST_CASE("cluster: a copy to be forwarded waits for the delay, any other copy is only delivered") {
+TEST_CASE("cluster: a gateway forwards a copy after a delay, other members only deliver the copy") {
     for (const bool is_gateway : {true, false}) {
         Member node;
         node.hear(1, 1);
@@ -182,8 +183,8 @@ TEST_CASE("cluster: the key `threshold` with any value, and a HELLO period of 0,
 }
 
 TEST_CASE(
-    "cluster on graphs: cluster heads are as defined, and all nodes connected to the source are "
-    "reached") {
+    "cluster on graphs: the right nodes become cluster heads, and all nodes connected to the "
+    "source are reached") {
     for (const int k : {1, 3, 5, 7, 9}) {
         double saved = 0;
         constexpr int maps = 5;

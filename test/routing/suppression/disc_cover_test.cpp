@@ -77,7 +77,9 @@ TEST_CASE("disc cover: two discs on opposite sides cover two lenses that do not 
     CHECK(std::abs(uncovered({{1, 0, 0}, {-1, 0, 0}}) - (2 * outside_lens(1) - 1)) < rounding);
 }
 
-TEST_CASE("disc cover: three discs at distance r, 120 degrees apart, cover the whole disc") {
+TEST_CASE(
+    "disc cover: three neighbours at distance r (the radius), 120 degrees apart, cover the whole "
+    "disc") {
     const Vec3 a{1, 0, 0}, b{-0.5, std::sqrt(0.75), 0}, c{-0.5, -std::sqrt(0.75), 0};
     CHECK(uncovered({a, b, c}) < rounding);
     // Two of them share a lens of centres sqrt(3) apart, which lies in the disc.
@@ -85,7 +87,9 @@ TEST_CASE("disc cover: three discs at distance r, 120 degrees apart, cover the w
     CHECK(std::abs(uncovered({a, b}) - (1 - 2 * lens + shared)) < rounding);
 }
 
-TEST_CASE("disc cover: equal discs count once, and the unit of length and heights have no effect") {
+TEST_CASE(
+    "disc cover: the uncovered share does not depend on repeated discs, heights or the unit of "
+    "length") {
     const std::vector<Vec3> two{{0.6, 0.2, 0}, {-0.3, 0.9, 0}};
     CHECK(uncovered({two[0], two[1], two[0]}) == uncovered(two));
     CHECK(std::abs(uncovered({{300, 100, 7}, {-150, 450, -9}}, 500) - uncovered(two)) < rounding);

@@ -93,7 +93,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "suppression: a later copy does not cancel a new frame that reuses the sent copy's handle") {
+    "suppression: after a copy was sent, a duplicate does not cancel a later frame with the same "
+    "handle") {
     Hearer node({.threshold = 2});
     node.hear();
     node.link.sent[0].queued.frame.sender = NodeId{7};  // sent, and the slot is another frame's
@@ -101,7 +102,7 @@ TEST_CASE(
     CHECK(node.link.sent[0].stage == test::FakeLinkLayer::Stage::waiting);
 }
 
-TEST_CASE("suppression: a copy waits for 1 us plus a uniform time from 0 to the delay") {
+TEST_CASE("suppression: a copy waits for 1 us plus a random time, uniform from 0 to the delay") {
     for (const auto scheme : {Scheme::counter, Scheme::probability}) {
         Hearer node({.scheme = scheme, .delay = 80ms});
         node.link.drawn = 0.25;
@@ -112,7 +113,7 @@ TEST_CASE("suppression: a copy waits for 1 us plus a uniform time from 0 to the 
 }
 
 TEST_CASE(
-    "suppression, probability: only the random draw against P decides, whatever is heard later") {
+    "suppression, probability: a random draw with probability P alone decides whether to forward") {
     for (const double drawn : {0.1, 0.299, 0.301, 0.9}) {
         Hearer node({.scheme = Scheme::probability, .threshold = 0.3});
         node.link.drawn = drawn;
@@ -122,7 +123,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("suppression, probability: the delay does not depend on the draw against P") {
+TEST_CASE("suppression, probability: the delay does not depend on the random draw for forwarding") {
     Hearer node({.scheme = Scheme::probability, .threshold = 0.3, .delay = 80ms});
     node.link.drawn_at = {{0, 0.75}, {1, 0.1}};
     CHECK(node.hear().fate == Fate::waiting);
@@ -165,7 +166,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "suppression: if the first copy has no TTL left, nothing is forwarded, also not a later copy") {
+    "suppression: if the first copy has no TTL left, nothing is forwarded, not even a later copy") {
     Hearer node({});
     const Reception first = node.hear({}, 1);
     CHECK(first.fate == Fate::ttl);
@@ -301,7 +302,8 @@ TEST_CASE(
                   1) == once);
 }
 
-TEST_CASE("suppression on graphs: the probability P saves 1 - P of the rebroadcasts") {
+TEST_CASE(
+    "suppression on graphs: with the probability P, a share 1 - P of the rebroadcasts is saved") {
     // 100 nodes in reach of all on each of 60 maps: sigma is sqrt(P (1 - P) / 5940) < .0065.
     constexpr double four_sigma = 0.026;
     for (const double p : {0.3, 0.5, 0.7}) {
@@ -312,7 +314,8 @@ TEST_CASE("suppression on graphs: the probability P saves 1 - P of the rebroadca
 }
 
 TEST_CASE(
-    "suppression on graphs: reach and savings equal those of Ni et al. on maps of 1 to 11 units") {
+    "suppression on graphs: reach and savings equal those published by Ni et al., on maps of six "
+    "sizes") {
     struct Row {
         Suppression settings;
         std::vector<Expected> on;  ///< maps of 1, 3, 5, 7, 9, 11 units

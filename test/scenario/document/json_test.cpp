@@ -9,7 +9,7 @@
 namespace json_test {
 using namespace rovernet;
 
-TEST_CASE("json: an object has the same bytes if it is written key by key or at once") {
+TEST_CASE("json: an object written key by key has the same bytes as an object written at once") {
     Table inner;
     inner.set("text", "two\nlines, \"quoted\"");
     inner.set("none", Table{});

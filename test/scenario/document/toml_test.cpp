@@ -65,7 +65,7 @@ TEST_CASE("toml: a printed document is read back unchanged") {
     CHECK(to_json(parse_toml(printed, "f.toml")) == to_json(document));
 }
 
-TEST_CASE("toml: keys keep the order of the file") {
+TEST_CASE("toml: printed keys have the same order as in the file") {
     CHECK(to_toml(*parse_toml("z = 1\na = 2\nm = 3", "").table()) == "z = 1\na = 2\nm = 3\n");
 }
 
@@ -73,7 +73,8 @@ TEST_CASE("toml: a real number without a fraction is printed as a real number, s
     CHECK(to_toml(*parse_toml("a = 30.0", "").table()) == "a = 30.0\n");
 }
 
-TEST_CASE("toml: an option finds a key whose name contains dots, with or without quotes") {
+TEST_CASE(
+    "toml: --set finds a key whose name contains dots, with or without quotes around the name") {
     const std::string text = "vary = { \"radio.power\" = [1], b = 2 }\n";
     for (const char* path : {"vary.radio.power", "vary.\"radio.power\""}) {
         CHECK(after_option(text, std::string(path) + "=[3]") ==
@@ -83,7 +84,8 @@ TEST_CASE("toml: an option finds a key whose name contains dots, with or without
           "[vary]\nb = 2\nradio = { power = [3] }\n");
 }
 
-TEST_CASE("toml: an error says what is probably wrong with quotes, commas and lines") {
+TEST_CASE(
+    "toml: for mistakes with quotes, commas or lines, the error says what is probably wrong") {
     const auto error_of = [](const std::string& text) -> std::string {
         try {
             parse_toml(text, "f");
@@ -114,7 +116,7 @@ TEST_CASE("toml: an error says what is probably wrong with quotes, commas and li
     check("a = 1979-05-27", "1:5", "a date or a time of day, but no key has such a value");
 }
 
-TEST_CASE("toml: if a key or table occurs twice in any notation, the error has its name") {
+TEST_CASE("toml: if a key or table occurs twice, in any notation, the error contains its name") {
     const auto check = [](const std::string& text, const std::string& error) {
         CAPTURE(text);
         try {
@@ -198,7 +200,7 @@ TEST_CASE(
     CHECK(contains(after_option(text, "robot.\"a=b\".radius=2"), "name = \"a=b\"\nradius = 2\n"));
     CHECK(after_option("", "\"a.b\"=1") == "\"a.b\" = 1\n");
     CHECK(contains(error_of_option(text, "robot.flow.0.radio.power=2"),
-                   "no item of the list is named \"flow\"; write a name that contains dots in "
+                   "no item of the list is named \"flow\"; a name that contains dots needs "
                    "quotes: \"flow.0\""));
     for (const char* option : {"\"a.b=1", "\"a\"b=1", "\"\".a=1"}) {
         CAPTURE(option);
@@ -207,7 +209,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "set_option: if the name of a robot is a number, the number never means a different robot") {
+    "set_option: if a robot's name is a number, this number never selects a different robot") {
     const std::string text = "[[robot]]\nname = \"1\"\n\n[[robot]]\nname = \"2\"\n";
     const std::string first = "[[robot]]\nname = \"1\"\nradius = 9\n\n[[robot]]\nname = \"2\"\n";
     CHECK(after_option(text, "robot.\"1\".radius=9") == first);
@@ -233,7 +235,7 @@ TEST_CASE("set_option: a value is read as TOML if possible, and as text otherwis
     CHECK(after_option("", "a=2007-01-01") == "a = \"2007-01-01\"\n");
 }
 
-TEST_CASE("set_option: an error quotes the option") {
+TEST_CASE("set_option: an error message begins with the text of the option") {
     const std::string text = "a = 1\n[[robot]]\nname = \"Anna\"\n";
     for (const char* option : {"radio.power", "=5", "", "a..b=1", ".a=1", "a.=1", "a.b=1",
                                "robot.7.radius=1", "robot.Ana.radius=1"}) {

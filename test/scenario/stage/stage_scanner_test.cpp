@@ -103,8 +103,8 @@ TEST_CASE("stage scanner: keys of a laser are read in the units of the world") {
 }
 
 TEST_CASE(
-    "stage scanner: the poses of models between a laser and its robot add to the pose of the "
-    "laser") {
+    "stage scanner: if a laser is mounted on a part of the robot, the poses of laser and part are "
+    "combined") {
     const Read world = carrying("model ( pose [0.2 0 0 90] laser ( pose [0.1 0 0 45] ) )");
     CHECK(near(world.only().at.x, 0.2));
     CHECK(near(world.only().at.y, 0.1));
@@ -192,7 +192,9 @@ TEST_CASE("stage scanner: a ranger of Stage 2 becomes a ring of sonars") {
     REQUIRE(views.notices.size() == 1);
 }
 
-TEST_CASE("stage scanner: a robot has all its own scanners in the world's order, and no others") {
+TEST_CASE(
+    "stage scanner: a robot gets all its own scanners, in the order of the world file, and no "
+    "others") {
     const Read world = read(
         "define bot position ( wifi ( model \"friis\" ) ranger ( ) )\n"
         "laser ( )\n"
@@ -253,7 +255,8 @@ scan = { beams = 3 }
     CHECK(scenario.robots[1].scan[0].finder.beams == 180);
 }
 
-TEST_CASE("stage scanner: robots of the worlds that came with Stage have their lasers") {
+TEST_CASE(
+    "stage scanner: robots of the worlds that came with Stage get the right sonars and lasers") {
     const char* folder = std::getenv("ROVERNET_WORLDS");
     if (!folder) {
         MESSAGE("skipped: ROVERNET_WORLDS is not set");

@@ -203,7 +203,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "stage world: a wifi that names no propagation model uses that of [propagation]; an unknown "
+    "stage world: a wifi without a propagation model uses the model of [propagation]; an unknown "
     "model is an error") {
     const Read none =
         read("position ( name \"a\" wifi ( ) )\nposition ( name \"b\"\nwifi ( plc 22 ) )\n");
@@ -227,7 +227,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "stage world: the key freq sets the frequency, or the key frequency if there is no freq") {
+    "stage world: the key `freq` sets the frequency, or the key `frequency` if `freq` is missing") {
     const std::string friis = "model \"friis\" ";
     CHECK(value(read(robot_with + friis + "frequency 900 ) )").radio(0), "frequency") == "900 MHz");
     CHECK(value(read(robot_with + friis + "freq 5200 frequency 900 ) )").radio(0), "frequency") ==
@@ -417,7 +417,7 @@ TEST_CASE("stage world: every value of the scenario has its line and column in t
     CHECK(world.radio(0).find("power")->where.column == 3);
 }
 
-TEST_CASE("stage world: robots without a name get unused names") {
+TEST_CASE("stage world: robots without a name get names that no other robot has") {
     const Read world = read(
         "define bot position ( wifi ( model \"friis\" ) )\n"
         "bot ( )\nbot ( name \"robot2\" )\nbot ( )\nbot ( )\n");
@@ -458,8 +458,7 @@ TEST_CASE("stage world: if two robots have the same address, a notice names both
           "give each robot a different address");
 }
 
-TEST_CASE(
-    "stage world: types of models that are neither robots nor walls are listed in one notice") {
+TEST_CASE("stage world: one notice lists all types of models that are neither robots nor walls") {
     const Read world = read(
         "window ( )\nmodel ( laser ( ) )\n"
         "position ( name \"a\" laser ( ) ranger ( sensor ( ) ) wifi ( model \"friis\" ) )\n"
@@ -568,7 +567,8 @@ TEST_CASE("stage world: the worlds that came with Stage can be loaded") {
           std::string::npos);
 }
 
-TEST_CASE("stage world: a world with a missing bitmap is refused, and loads with a replacement") {
+TEST_CASE(
+    "stage world: a world whose bitmap is missing is refused, unless a replacement is given") {
     const auto folder = stage_worlds();
     if (!folder) return;
     WorldOptions options = with_includes(*folder);

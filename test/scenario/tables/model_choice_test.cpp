@@ -66,7 +66,8 @@ Scenario scenario_of(const std::string& keys) {
 
 }  // namespace
 
-TEST_CASE("models: a key that several models share must be in the range of the selected model") {
+TEST_CASE(
+    "models: if several models share a key, its value must be in the range of the selected model") {
     const Choice far = read("model = \"far\"\nhops = 30");
     CHECK(std::get<Far>(far.make()).hops == 30);
     CHECK(std::get<Near>(far.parameters).hops == 2);  // 30 is out of its range
@@ -84,7 +85,7 @@ TEST_CASE("models: a key of a model that is not chosen is checked and kept") {
     CHECK(error_of("shar = 0.2").find("did you mean \"share\"?") != std::string::npos);
 }
 
-TEST_CASE("models: a key that the chosen model lacks must be valid for one of the other models") {
+TEST_CASE("models: a key that the chosen model lacks must have a value that another model allows") {
     const Choice bare = read("model = \"bare\"\nhops = 30");
     CHECK(std::get<Far>(bare.parameters).hops == 30);
     CHECK(std::get<Near>(bare.parameters).hops == 2);

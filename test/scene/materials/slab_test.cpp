@@ -29,7 +29,8 @@ double loss_db(math::Complex field, double decay = 0) {
 
 }  // namespace
 
-TEST_CASE("slab: losses and transmitted field, with its phase, equal the test vectors") {
+TEST_CASE(
+    "slab: losses, and amplitude and phase of the transmitted field, equal the test vectors") {
     const test::Vectors vectors("slab_transmission.csv");
     int compared = 0;
     for (std::size_t i = 0; i < vectors.size(); ++i) {

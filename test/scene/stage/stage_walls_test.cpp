@@ -165,7 +165,7 @@ TEST_CASE("stage walls: lengths are read in unit_length and angles in unit_angle
     CHECK(near(corners(box).opposite, {9, 2, 0}));
 }
 
-TEST_CASE("stage walls: a model without bitmap and outline is a solid box") {
+TEST_CASE("stage walls: a model without a bitmap and without an outline is a solid box") {
     World world;
     const StageWalls walls = world.walls(
         "model ( size [2 1] pose [5 5 0] )\nmodel ( size [1 1 3] noblocks 1 )\nmodel ( )\n");
@@ -268,7 +268,7 @@ TEST_CASE("stage walls: rectangular polygons of Stage 2 and blocks of Stage 4 be
 }
 
 TEST_CASE(
-    "stage walls: outlines that are no rectangles become cells of at most 2 cm, with one notice") {
+    "stage walls: outlines that are not rectangles become cells of at most 2 cm, with one notice") {
     World world;
     const StageWalls walls = world.walls(
         "model ( size [2 1.01] pose [3 0 0]\n"
@@ -329,7 +329,8 @@ TEST_CASE("stage walls: each colour of the walls becomes one material") {
 }
 
 TEST_CASE(
-    "stage walls: the error for a missing bitmap lists paths tried; --lenient makes it a notice") {
+    "stage walls: the error for a missing bitmap lists the paths that were tried; with --lenient "
+    "it is only a notice") {
     World world;
     const std::string text = "model (\n bitmap \"bits/m.pgm\" size [1 1] )\n";
     const std::string places =
@@ -348,7 +349,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "stage walls: an image may replace a bitmap, named by its whole path or by its file name") {
+    "stage walls: a bitmap, given by its whole path or its file name, can be replaced by another "
+    "image") {
     World world;
     world.draw("new.pgm", {"#.#"});
     for (const std::string old : {"bits/old.pgm", "old.pgm"}) {

@@ -114,7 +114,8 @@ TEST_CASE("worldfile: if a key is given several times, its last value counts") {
     CHECK(value(read("a 1\na 2\na 3\n").root, "a") == "3000");
 }
 
-TEST_CASE("worldfile: a model made from a macro has the macro's keys and children, and its own") {
+TEST_CASE(
+    "worldfile: a model made from a macro has the macro's keys and children besides its own") {
     const WorldFile world = read(
         "define base position ( size [1 1] color \"red\" laser() )\n"
         "define robot base\n( color \"blue\" mass 3 sonar() )\n"
@@ -191,7 +192,8 @@ TEST_CASE("worldfile: a tuple may continue over several lines, with comments") {
     CHECK(world.root.children[0].find("name")->where.line == 5);
 }
 
-TEST_CASE("worldfile: a syntax error has line, column, what was found and what to write") {
+TEST_CASE(
+    "worldfile: the message of a syntax error has line, column, what was found and what to write") {
     CHECK(mistake("size [16 16]\n power 1e-3\n") ==
           "2:8: found \"1e-3\"; expected a number without an exponent; write 0.001");
     CHECK(mistake("power 2.5E2\n") ==
@@ -251,7 +253,7 @@ TEST_CASE("worldfile: a syntax error has line, column, what was found and what t
     CHECK(mistake("# caf\xE9, ; ' 1e5\n") == "");
 }
 
-TEST_CASE("worldfile: an incomplete define is refused") {
+TEST_CASE("worldfile: an incomplete `define` (definition of a macro) is refused") {
     CHECK(mistake("define robot ( )\n") ==
           "1:14: found \"(\"; expected the macro's name and its type; write define robot position "
           "( ... )");
@@ -265,7 +267,8 @@ TEST_CASE("worldfile: an incomplete define is refused") {
 }
 
 TEST_CASE(
-    "worldfile: includes are searched beside the world, in the search path, then in STAGEPATH") {
+    "worldfile: included files are searched beside the world, in the search path, then in "
+    "STAGEPATH") {
     const TemporaryFolder folder;
     for (const std::string sub : {"world", "first", "second"}) {
         std::filesystem::create_directory(folder.path(sub));
@@ -285,7 +288,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "worldfile: the error for a missing include lists paths tried; --lenient makes it a notice") {
+    "worldfile: the error for a missing included file lists the paths that were tried; with "
+    "--lenient it is only a notice") {
     const TemporaryFolder folder;
     const std::string path = folder.write("a.world", "a 1\ninclude \"inc/m.inc\"\nb 2\n");
     WorldOptions options{.search_path = {folder.path("lib")}};
@@ -300,7 +304,7 @@ TEST_CASE(
     const std::string places = folder.path("inc/m.inc") + ", " + folder.path("lib/inc/m.inc") +
                                ", " + folder.path("m.inc") + " and " + folder.path("lib/m.inc");
     CHECK(message == "no file \"inc/m.inc\" to include; tried the paths " + places +
-                         "; give the file's folder with --world-path or in STAGEPATH");
+                         "; give the file's folder with --world-path or in the variable STAGEPATH");
     options.lenient = true;
     const WorldFile world = read_worldfile(path, options);
     CHECK(value(world.root, "b") == "2000");
@@ -331,7 +335,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("worldfile: an include must name a file, and nothing may follow on the same line") {
+TEST_CASE("worldfile: an `include` must name a file, and nothing may follow on the same line") {
     CHECK(mistake("include map\n") ==
           "1:9: found the word \"map\"; expected the name of a file in quotes; write include "
           "\"map.inc\"");
@@ -340,7 +344,7 @@ TEST_CASE("worldfile: an include must name a file, and nothing may follow on the
     CHECK(mistake("include \"\"\n").starts_with("1:9: found the text \"\"; expected the name"));
 }
 
-TEST_CASE("worldfile: endless includes and macros are errors") {
+TEST_CASE("worldfile: a file that includes itself, and macros that expand too far, are errors") {
     CHECK(contains(mistake("include \"a.world\"\n"), "1:9: "));
     CHECK(contains(mistake("include \"a.world\"\n"), "includes itself"));
     const std::string deep = "is nested more than 64 levels deep";
@@ -363,7 +367,7 @@ TEST_CASE("worldfile: endless includes and macros are errors") {
     CHECK(contains(mistake(many), "more than 1000000 words, values and lines"));
 }
 
-TEST_CASE("worldfile: includes nest at most 16 deep") {
+TEST_CASE("worldfile: included files may be nested at most 16 deep") {
     const TemporaryFolder folder;
     const auto write = [&](int depth) {
         for (int i = 0; i < depth; ++i) {

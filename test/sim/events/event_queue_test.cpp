@@ -205,7 +205,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "event queue: 200 000 events at one time are served by priority, then by order of insertion") {
+    "event queue: 200 000 events of equal time are served by priority, then by insertion order") {
     EventQueue queue;
     std::vector<EventKey> keys;
     for (std::uint64_t i = 0; i < 200'000; ++i) {

@@ -165,7 +165,8 @@ TEST_CASE("scheduler: events of equal time and priority are served in the order 
 }
 
 TEST_CASE(
-    "scheduler: at one time, frame ends go first, then timers, frame starts and user events") {
+    "scheduler: at equal times, ends of frames are served first, then timers, starts of frames and "
+    "user events") {
     Scheduler<int> queue;
     queue.schedule(at(10), Priority::user, 4);
     queue.schedule(at(10), Priority::frame_start, 3);
@@ -242,7 +243,8 @@ TEST_CASE(
     CHECK(*movable_only.pop().payload == 7);
 }
 
-TEST_CASE("scheduler: too many events end the run with an error, and keep the queue intact") {
+TEST_CASE(
+    "scheduler: too many events give an error that ends the run, and the queue stays intact") {
     Scheduler<int> narrow({.pending = 2});
     const auto first = narrow.schedule(at(1), Priority::timer, 1);
     narrow.schedule(at(2), Priority::timer, 2);
@@ -307,7 +309,8 @@ TEST_CASE("scheduler: in steady state no memory is allocated, however many event
     CHECK(test::allocations() == before);
 }
 
-TEST_CASE("scheduler: distant timers that are postponed again and again do not accumulate") {
+TEST_CASE(
+    "scheduler: postponing a distant timer again and again does not take more and more memory") {
     Scheduler<int> queue;
     queue.schedule(at(0), Priority::user, 0);  // stays on top, so that no dead key comes up
     auto timer = queue.schedule(start_of_run + 1h, Priority::timer, 1);
@@ -406,7 +409,7 @@ class ToyRadio {
 }  // namespace
 
 TEST_CASE(
-    "scheduler: one event per frame gives receptions the same order as one event per reception") {
+    "scheduler: the order of receptions is the same with one event per frame or per reception") {
     const auto one_each = ToyRadio(false).run();
     const auto one_per_frame = ToyRadio(true).run();
     CHECK(one_each.size() > 10'000);

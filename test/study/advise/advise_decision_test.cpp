@@ -98,7 +98,8 @@ TEST_CASE("decision: verdicts about the mean equal the test vectors (table decid
     }
 }
 
-TEST_CASE("decision: differences that cancel out are tolerable for the mean, not for single runs") {
+TEST_CASE(
+    "decision: differences that cancel out are tolerated for the mean, but not for single runs") {
     const DecisionRule rule{.tolerance = 0.1, .bounds = share};
     DecisionRule of_runs = rule;
     of_runs.criterion = ErrorCriterion::run;
@@ -113,7 +114,7 @@ TEST_CASE("decision: differences that cancel out are tolerable for the mean, not
 }
 
 TEST_CASE(
-    "decision: for single runs the verdict `outside` is a one-sided test at the level alpha") {
+    "decision: for single runs the verdict `outside` comes from a one-sided test at level alpha") {
     // |D| = 1/2 against a tolerance of 1/4: the wealth "above" grows by the stakes of the formula.
     const DecisionRule rule{
         .criterion = ErrorCriterion::run, .tolerance = 0.25, .bounds = share, .family = 3};
@@ -254,7 +255,8 @@ TEST_CASE("advise: the cheapest candidate within the tolerance is chosen") {
     CHECK_FALSE(ladder.wants(3));
 }
 
-TEST_CASE("advise: an undecided candidate cheaper than a sufficient candidate is tested further") {
+TEST_CASE(
+    "advise: a candidate that is undecided and cheaper than a sufficient one is tested further") {
     Ladder ladder(3, {.tolerance = 0.1, .bounds = share, .family = 3});
     for (int r = 0; r < 300; ++r) {
         add(ladder, 0, r % 2 == 0 ? 0.6 : -0.4);  // the tolerance itself

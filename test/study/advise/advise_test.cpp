@@ -123,7 +123,7 @@ const JudgedCandidate& judged(const Advice& advice, std::string_view name) {
 
 TEST_CASE(
     "advise: on an open field, the reference is the exact form of `two_ray` with the reception "
-    "`sinr`") {
+    "model `sinr`") {
     const AdviceCandidates c = candidates_of(talkers, as_given);
     CHECK_FALSE(c.on_map);
     const CandidateModel& reference = c.path_losses.back();
@@ -221,7 +221,9 @@ TEST_CASE("advise: options select the reference and the candidates") {
     CHECK(names_of(c.receptions) == std::vector<std::string>{"threshold", "collision"});
 }
 
-TEST_CASE("advise: errors about reference and candidates name the option that selects them") {
+TEST_CASE(
+    "advise: an error in the reference or in a candidate is reported with the option that selects "
+    "it") {
     const auto reference = [](const std::string& text) {
         return error_of({.models = {}, .reference = {text}, .as_given = true});
     };
@@ -298,8 +300,9 @@ TEST_CASE("advise: a simulated study selects the candidate model that equals the
     // Where radio is a small part of a run, a cheap model saves nothing.
     advice.reference_cost.share = 0.03;
     CHECK(advice.saves_nothing());
-    CHECK(advice_text(advice).starts_with(
-        "Take the reference, log_distance + collision. The radio takes only 3 % of a run's "));
+    CHECK(
+        advice_text(advice).starts_with("Take the reference, log_distance + collision. The radio "
+                                        "takes only 3 % of the CPU time of a run "));
     advice.reference_cost.share = 0.5;
     advice.reference_cost.run_s = 2 * advice.chosen()->cost.run_s;
     CHECK_FALSE(advice.saves_nothing());
@@ -336,7 +339,7 @@ TEST_CASE(
     CHECK(advice.chosen()->name == "b + all");
 }
 
-TEST_CASE("advise: without a sufficient cheaper model the reference is advised") {
+TEST_CASE("advise: if no cheaper model is sufficient, the reference is advised") {
     MadeUp study(
         [](std::size_t p, std::size_t r, std::uint32_t) { return p == 2 && r == 1 ? 0.9 : 0.4; });
     const Advice advice = study.advice(rule_of(0.2));
@@ -394,7 +397,8 @@ TEST_CASE("advise: existing runs in the store do not change the advice") {
     CHECK(a.chosen()->name == b.chosen()->name);
 }
 
-TEST_CASE("advise: a candidate near the tolerance does not use all replications") {
+TEST_CASE(
+    "advise: a candidate whose error is near the tolerance is not tested with all replications") {
     // `a` is 0.2 away on average, which is the tolerance; `b` is the reference.
     MadeUp study([](std::size_t p, std::size_t, std::uint32_t r) {
         return p == 0 ? (r % 2 == 0 ? 0.5 : 0.9) : 0.5;
@@ -440,8 +444,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "advise: replications are added in blocks of 10, or of a quarter of their number if that is "
-    "more") {
+    "advise: replications are added in blocks of 10, or of a quarter of the existing ones if that "
+    "is more") {
     CHECK(next_block(0, 4000) == 10);
     CHECK(next_block(10, 4000) == 20);
     CHECK(next_block(80, 4000) == 100);

@@ -65,7 +65,8 @@ TEST_CASE("costs of models: each model has a CPU cost, and a share of the CPU ti
         CHECK(*model.radio_share > 0);
         CHECK(*model.radio_share <= 1);
     }
-    CHECK(c.comparison.cost_text.find("median of 5 measurements of 0.05 s") != std::string::npos);
+    CHECK(c.comparison.cost_text.find("median of 5 measurements, each of 0.05 s") !=
+          std::string::npos);
     CHECK(c.comparison.cost_text.find("of a run's CPU time") != std::string::npos);
     CHECK(c.without.find("per run") != std::string::npos);
     const Chart chart = comparison_charts(c.comparison)[1];
@@ -74,8 +75,8 @@ TEST_CASE("costs of models: each model has a CPU cost, and a share of the CPU ti
 }
 
 TEST_CASE(
-    "costs of models: without frames no model has a cost, and the chart shows the CPU time of "
-    "runs") {
+    "costs of models: if no frames are sent, no costs are given, and the chart shows the CPU time "
+    "of runs") {
     const Compared c("off = [\"0 s\"]");
     for (const ComparedModel& model : c.comparison.models) CHECK_FALSE(model.cost);
     CHECK(c.comparison.cost_text.empty());

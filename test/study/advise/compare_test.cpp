@@ -71,8 +71,8 @@ constexpr double rounding = 1e-12;  // of means of a few numbers below 10
 }  // namespace
 
 TEST_CASE(
-    "compare: differences are paired by replication; a model's error is its mean distance to the "
-    "most detailed model") {
+    "compare: differences are paired by replication; a model's error is its mean absolute "
+    "difference from the most detailed model") {
     const TemporaryFolder folder;
     const Store store = made(folder.path("s.db"), {"raytrace_2007", "disc", "friis"},
                              {{0.2, 0.4, 0.6}, {0.3, 0.3, 0.9}, {1.0, 1.0, 1.0}});
@@ -97,8 +97,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "compare: a mean uses all replications of a model, a difference only those that both models "
-    "have") {
+    "compare: a mean uses all replications of a model; a difference uses only those of both "
+    "compared models") {
     const TemporaryFolder folder;
     const Store store = made(folder.path("s.db"), {"disc", "friis", "itu_indoor"},
                              {{0.2, {}, 0.6, 0.9}, {1.0, 1.0, 0.8}, {0.1, 0.2, 0.3, 0.5}});
@@ -121,7 +121,9 @@ TEST_CASE(
                          doctest::Contains("did you mean \"disc\"?"), std::invalid_argument);
 }
 
-TEST_CASE("compare: models without a common replication have means and no difference") {
+TEST_CASE(
+    "compare: for models without a common replication, means are given, but differences are not "
+    "computed") {
     const TemporaryFolder folder;
     const Store store = made(folder.path("n.db"), {"disc", "friis"}, {{{}, 1.0}, {0.5, {}}});
     const Comparison c = compare_models(store, "reach", "");
@@ -132,7 +134,9 @@ TEST_CASE("compare: models without a common replication have means and no differ
     CHECK(c.models[0].unpaired.undefined == 2);
 }
 
-TEST_CASE("compare: one replication gives means, wide intervals and no difference") {
+TEST_CASE(
+    "compare: with one replication, means and wide intervals are given, but differences are not "
+    "tested") {
     const TemporaryFolder folder;
     const Store store = made(folder.path("s.db"), {"disc", "friis"}, {{0.5}, {1.0}});
     const Comparison c = compare_models(store, "reach", "");
@@ -181,7 +185,8 @@ TEST_CASE(
     CHECK(compared == 3);
 }
 
-TEST_CASE("compare: with a margin, each model is within the margin, outside, or undecided") {
+TEST_CASE(
+    "compare: if a margin is given, each model is within the margin, outside it, or undecided") {
     const TemporaryFolder folder;
     std::vector<std::vector<std::optional<double>>> values(4);
     for (int r = 0; r < 400; ++r) {

@@ -50,7 +50,8 @@ every = "100 ms"
 
 }  // namespace
 
-TEST_CASE("costs of the medium: replayed frames reach about as many receivers as in the run") {
+TEST_CASE(
+    "costs of the medium: replayed frames reach about as many receivers as in the recorded run") {
     for (const char* more : {"[propagation]\nmodel = \"disc\"\nrange = \"90 m\"\n",
                              "[propagation]\nmodel = \"log_distance\"\nsigma = \"4 dB\"\n",
                              "[propagation]\nmodel = \"friis\"\n[access]\nmodel = \"csma\"\n",
@@ -106,7 +107,9 @@ TEST_CASE("costs of the medium: each model's median cost is between its lowest a
     }
 }
 
-TEST_CASE("costs of the medium: without recorded frames, or after a stop, no model has a cost") {
+TEST_CASE(
+    "costs of the medium: without recorded frames, or if the measurement is stopped, no costs are "
+    "given") {
     Scenario silent = walkers("");
     silent.traffic.clear();
     const MediumRecord none = record_medium(silent, go_on);

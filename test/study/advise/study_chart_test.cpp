@@ -53,7 +53,8 @@ constexpr double rounding = 1e-12;  // of a mean of three numbers below 100
 }  // namespace
 
 TEST_CASE(
-    "study chart: numeric x values give lines, and keys that are not drawn are averaged over") {
+    "study chart: numeric x values give lines, and values are averaged over keys that are not "
+    "drawn") {
     const TemporaryFolder folder;
     const Store store =
         made(folder.path("s.db"), "robot.r.count", {10, 20}, "routing.ttl", {1, 2, 3});
@@ -194,7 +195,7 @@ TEST_CASE(
     fails("", "no line with the names of the columns");
 }
 
-TEST_CASE("study chart: a quotient of metrics is computed run by run") {
+TEST_CASE("study chart: a quotient of metrics is computed for each run separately") {
     const TemporaryFolder folder;
     const Store store = made(folder.path("s.db"), "robot.r.count", {10, 20}, "routing.ttl", {1, 2});
     const std::string quotient = "latency_mean_s/latency_mean_s";

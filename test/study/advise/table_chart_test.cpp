@@ -31,8 +31,8 @@ Chart draw(const std::string& text, const ChartQuestion& question) {
 }  // namespace
 
 TEST_CASE(
-    "table chart: each name is a series, columns give the intervals, and rows without y are left "
-    "out") {
+    "table chart: each value of the `by` column is a series, other columns give intervals, and "
+    "rows without y are left out") {
     const Chart chart = draw(table, {.x = "robots", .y = "cost", .by = "program", .log_x = true});
     CHECK(chart.kind == ChartKind::lines);
     CHECK(chart.x_label == "robots");

@@ -103,7 +103,7 @@ std::string levels_of_a_law(double floor) {
 }  // namespace
 
 TEST_CASE(
-    "calibration: a model fitted to losses of a model of the same kind recovers its parameters") {
+    "calibration: if losses were computed by a model, fitting this model recovers its parameters") {
     const Scenario scenario = scenario_from(
         wanderers + "[propagation]\nmodel = \"log_distance\"\nexponent = 3.2\nexcess = \"4 dB\"\n");
     const KnownLinks known =
@@ -314,8 +314,8 @@ TEST_CASE("calibration: if some links are too weak to be seen, no fitted wall lo
 }
 
 TEST_CASE(
-    "calibration: robots at rest are sampled in each replication only for a model with random "
-    "draws") {
+    "calibration: links of robots at rest are sampled anew in each replication only if the model "
+    "has random draws") {
     const Scenario scenario = scenario_from(
         "[[robot]]\nname = \"a\"\nat = [\"0 m\", \"0 m\"]\n"
         "[[robot]]\nname = \"b\"\nat = [\"9 m\", \"0 m\"]\n");

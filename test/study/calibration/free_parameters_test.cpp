@@ -24,8 +24,8 @@ Scenario open_field(const std::string& keys = "") {
 }  // namespace
 
 TEST_CASE(
-    "free parameters: the keys of each model that a fit may change, and their base values, are the "
-    "expected ones") {
+    "free parameters: for each model, the keys that a fit may change and their base values are as "
+    "expected") {
     std::string all;
     for_each_model([&]<class Model>() {
         for (const FreeParameter& p : free_parameters(Model::name)) {
@@ -49,7 +49,8 @@ TEST_CASE(
     CHECK(key_determined(LogDistance::name, Fit::Way::spread) == "sigma");
 }
 
-TEST_CASE("free parameters: a value is set unchanged, and a value out of range is refused") {
+TEST_CASE(
+    "free parameters: a parameter gets exactly the given value; a value out of range is refused") {
     const Scenario scenario = open_field("[propagation]\nmodel = \"friis\"\nexponent = 3.0\n");
     const Propagation fitted = model_with(scenario, LogDistance::name, {{"exponent", 0.1 + 0.2}});
     CHECK(fitted.as<LogDistance>()->exponent == 0.1 + 0.2);

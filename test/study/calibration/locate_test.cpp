@@ -47,7 +47,8 @@ robot = [
 
 }  // namespace
 
-TEST_CASE("locate: without shadowing positions are exact, also with walls") {
+TEST_CASE(
+    "locate: without shadowing positions are exact, with `log_distance` and with `multi_wall`") {
     for (const char* model : {"", "propagation.model=multi_wall"}) {
         const Located located =
             locate_robots(hall("", model), corners, {start_of_run}, {.sigma = Db{4}});
@@ -140,7 +141,8 @@ TEST_CASE("locate: with shadowing the error is within 10 % of its theoretical bo
     CHECK(std::abs(errors->rms / errors->bound - 1) <= 0.1);
 }
 
-TEST_CASE("locate: measured levels give positions, with and without known true positions") {
+TEST_CASE(
+    "locate: measured levels give positions, and also errors if the true positions are known") {
     const TemporaryFolder folder;
     const Scenario scenario = hall("");
     // Levels at (3, 4): exponent 2 is 20 dB a decade.

@@ -50,8 +50,8 @@ std::vector<AnchorLoss> measured(const LocatorSettings& s, const std::vector<Vec
 }  // namespace
 
 TEST_CASE(
-    "locator: the bound of the position error equals the closed form, with known and unknown "
-    "power") {
+    "locator: the bound of the position error equals the closed form, for known and for unknown "
+    "transmit power") {
     const Vectors vectors("rssi_crlb.csv");
     std::size_t checked = 0;
     for (std::size_t row = 0; row < vectors.size(); ++row) {

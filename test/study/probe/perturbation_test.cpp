@@ -101,7 +101,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "perturbations: dividing the cells of a map changes no loss; joining cells makes walls "
+    "perturbations: dividing the cells of a map does not change losses; joining cells makes walls "
     "thicker") {
     const Scenario scenario = in_hall({Material{}}, 0, table_of(Raytrace2007{.wall_factor = 0.1}));
     const auto all = perturbations(scenario);
@@ -127,7 +127,8 @@ TEST_CASE("perturbations: walls that are changed for radio do not change where r
     CHECK(scene->occupied({1.75, 1.75}));
 }
 
-TEST_CASE("perturbations: crossing a wall costs 3 dB more or less, for every kind of material") {
+TEST_CASE(
+    "perturbations: the loss of a wall is raised and lowered by 3 dB, for every kind of material") {
     struct Kind {
         const char* what;
         Material material;
@@ -194,8 +195,8 @@ TEST_CASE("perturbations: if there are more than eight materials, all are change
 }
 
 TEST_CASE(
-    "displaced antennas: each one moves by the given distance, in a direction fixed by the robot's "
-    "key") {
+    "displaced antennas: each antenna moves by the given distance, in a direction set by the "
+    "robot's key") {
     const Displaced model{Friis{}, Meters{0.01}};
     const Vec3 at{3, 4};
     for (std::uint64_t key = 0; key < 100; ++key) {

@@ -77,7 +77,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "probe: at the range of the model `disc`, a shift of 1 um flips the link; this is listed "
+    "probe: at the range of the model `disc`, a shift of 1 um breaks the link, and is listed "
     "first, as a cliff") {
     const Probe found = probe(scenario_from(two_robots(10, disc)), {});
     REQUIRE(found.effects.size() == 2);
@@ -169,7 +169,7 @@ TEST_CASE(
     CHECK(named(found, "walls -3 dB").gained == 0);
 }
 
-TEST_CASE("probe: a run with too many events is compared only up to a time that is reported") {
+TEST_CASE("probe: a run with too many events is compared only up to a time, which is reported") {
     Scenario scenario = scenario_from(two_robots(50, ""));
     scenario.traffic.front().every = std::chrono::milliseconds{1};
     const Probe found = probe(scenario, {.events = 1});

@@ -68,7 +68,7 @@ TEST_CASE("bounded mean: if all values are 1, the interval agrees with a numeric
 }
 
 TEST_CASE(
-    "bounded mean: the interval of equal values is wider than 0, and narrower for a larger n") {
+    "bounded mean: for equal values the interval is wider than 0, and narrower for more values") {
     double width = 1;
     for (const std::size_t n : {1U, 2U, 5U, 30U, 1000U}) {
         for (const double x : {0.0, 0.3, 1.0}) {
@@ -83,7 +83,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("bounded mean: the interval narrows with every value and never widens") {
+TEST_CASE("bounded mean: after each new value, the interval lies inside the previous interval") {
     const auto values = uniforms(60);
     BoundedMean before{0, 1};
     for (std::size_t n = 1; n <= values.size(); ++n) {

@@ -96,7 +96,7 @@ TEST_CASE(
           "replications");
 }
 
-TEST_CASE("comparison: fewer than two pairs give no comparison") {
+TEST_CASE("comparison: for fewer than two pairs no comparison is made") {
     CHECK(!compare_pairs({}, {}));
     CHECK(!compare_pairs(std::array{1.0}, std::array{2.0}));
     CHECK(compare_pairs(std::array{1.0, 2.0}, std::array{2.0, 4.0}));
@@ -158,7 +158,9 @@ TEST_CASE("comparison: if all differences are equal, the p-value is 0, or 1 if t
     CHECK(!paired_variance_ratio(std::array{1.0}, std::array{2.0}));
 }
 
-TEST_CASE("comparison: the variance ratio is 1 / (1 - correlation) for equal variances") {
+TEST_CASE(
+    "comparison: for equal variances, pairing multiplies the variance of a difference by 1 - "
+    "correlation") {
     // var(a - b) = 2 var(a) (1 - r)
     const std::array a{1.0, 2.0, 3.0, 4.0, 5.0}, b{2.0, 1.0, 4.0, 3.0, 5.0};
     CHECK(is_close(*paired_variance_ratio(a, b), 1 / (1 - 0.8), rounding));  // 2.5, covariance 2
@@ -199,7 +201,7 @@ TEST_CASE("comparison: a true difference of the detectable size is found in 80 %
     CHECK(std::abs(found - 8000) < 160);  // 4 standard deviations
 }
 
-TEST_CASE("comparison: without a difference, the p-value is uniformly distributed") {
+TEST_CASE("comparison: if there is no true difference, the p-value is uniformly distributed") {
     std::array<int, 10> counts{};
     for (std::uint32_t study = 0; study < 2000; ++study) {
         const Pairs pairs(5, study, 0);
@@ -208,10 +210,11 @@ TEST_CASE("comparison: without a difference, the p-value is uniformly distribute
     for (const int count : counts) CHECK(std::abs(count - 200) < 4 * std::sqrt(200 * 0.9));
 }
 
-TEST_CASE("comparison: input that is not pairs of numbers is refused") {
+TEST_CASE("comparison: input other than pairs of finite numbers is refused") {
     const std::array two{1.0, 2.0}, bad{1.0, not_a_number};
     CHECK_THROWS_WITH_AS(compare_pairs(two, std::array{1.0}),
-                         "compare_pairs: expected pairs, but there are 2 values and 1 values",
+                         "compare_pairs: expected pairs of values, but one list has 2 and the "
+                         "other list has 1 values",
                          std::invalid_argument);
     CHECK_THROWS_WITH(compare_pairs(two, bad), "compare_pairs: values must be finite, got nan");
     CHECK_THROWS_WITH(compare_pairs(bad, two), "compare_pairs: values must be finite, got nan");
@@ -231,7 +234,9 @@ TEST_CASE("comparison in words: a sentence states a significant difference") {
           "Student's t)");
 }
 
-TEST_CASE("comparison in words: a sentence states that nothing is found, and the detectable size") {
+TEST_CASE(
+    "comparison in words: a sentence states that no difference is found, and what size is "
+    "detectable") {
     PairedComparison c = comparison(0.0021, 0.0119, 0.0501);
     CHECK(comparison_text("friis", "disc", c) ==
           "no detectable difference between friis and disc (0.002, 95 % interval -0.010 to 0.014, "
@@ -274,7 +279,7 @@ TEST_CASE("comparison in words: the half-width has two digits, without unnecessa
               .starts_with("a is 0.0000200 above b (95 % interval 0.0000185 to 0.0000215,"));
 }
 
-TEST_CASE("comparison in words: a number that rounds to 0 has no sign") {
+TEST_CASE("comparison in words: a number that is rounded to 0 is written without a sign") {
     CHECK(comparison_text("a", "b", comparison(-0.01, 0.5, 0.9))
               .starts_with(
                   "no detectable difference between a and b (-0.01, 95 % interval -0.51 to 0.49,"));
@@ -307,8 +312,8 @@ TEST_CASE("comparison in words: a sentence states whether two models are equival
     verdict.needed = 800;
     CHECK(equivalence_text("disc", "friis", 0.05, verdict, c) ==
           "30 replications do not decide whether disc is within 0.05 of friis (95 % for all 4 "
-          "comparisons, "
-          "by betting); about 800 replications like these would decide");
+          "comparisons, by betting); about 800 replications like these would be enough for a "
+          "decision");
 }
 
 TEST_CASE(
@@ -340,7 +345,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "comparison: the sign test is binomial and adjusted for the family; betting has no sign test") {
+    "comparison: the sign test is binomial and adjusted for the number of comparisons; with "
+    "intervals by betting there is no sign test") {
     const std::array a{1.0, 0.0, 1.0, 0.5, 1.0, 1.0, 0.7}, b{0.0, 1.0, 0.0, 0.5, 0.5, 0.5, 0.0};
     // 5 above, 1 below, 1 equal: 2 (1 + 6) / 64.
     CHECK(is_close(*compare_pairs(a, b, share)->sign_p, 14.0 / 64, rounding));
@@ -349,7 +355,9 @@ TEST_CASE(
     CHECK(compare_pairs(a, a, share)->sign_p == 1.0);
 }
 
-TEST_CASE("comparison: by STaR-Bets, the p-value is at most the level exactly if 0 is excluded") {
+TEST_CASE(
+    "comparison: by STaR-Bets, the p-value is at most the level exactly if the interval excludes "
+    "0") {
     int found = 0, studies = 0;
     for (std::uint32_t study = 0; study < 100; ++study) {
         Pairs pairs(60, study, 1.2);

@@ -77,7 +77,9 @@ TEST_CASE("equivalence: the wealths of the betting test equal the test vectors (
     }
 }
 
-TEST_CASE("equivalence: verdicts and their replications equal the test vectors (decide_betting)") {
+TEST_CASE(
+    "equivalence: verdicts, and the replications at which they are given, equal the test vectors "
+    "(decide_betting)") {
     const test::Vectors all("decide_series.csv"), expected("decide_betting.csv");
     for (std::size_t row = 0; row < expected.size(); ++row) {
         const std::string name = expected.text(row, "series");
@@ -142,7 +144,8 @@ TEST_CASE("equivalence: an undecided test predicts the number of replications th
               .method = IntervalMethod::betting, .decided_at = {}, .needed = {}, .decidable = {}});
 }
 
-TEST_CASE("equivalence: a margin that no difference can exceed needs no replication") {
+TEST_CASE(
+    "equivalence: if no difference can exceed the margin, the verdict needs no replications") {
     const auto result = equivalence_of(std::vector<double>{0.5}, 1, share);
     CHECK(result.verdict == Equivalence::within);
     CHECK(result.decided_at == 0U);
@@ -171,7 +174,8 @@ TEST_CASE("equivalence: if the difference equals the margin, at most 5 % of verd
     }
 }
 
-TEST_CASE("equivalence: STaR-Bets test a fixed number of values, unless Student's t is requested") {
+TEST_CASE(
+    "equivalence: a fixed number of values is tested by STaR-Bets, or on request by Student's t") {
     const auto values = normals(150, 0, 0.02, 5);
     const auto fixed = equivalence_of(values, 0.05, share);
     CHECK(fixed.verdict == Equivalence::within);
@@ -224,7 +228,7 @@ TEST_CASE("equivalence: by Student's t, the level is divided by the number of co
     CHECK(equivalence_of(values, 1.58, delay, 0.05, 2).verdict == Equivalence::undecided);
 }
 
-TEST_CASE("equivalence: by Student's t, equal differences give no verdict") {
+TEST_CASE("equivalence: if all differences are equal, the test by Student's t stays undecided") {
     const auto result = equivalence_of(std::vector<double>(10, 0.0), 0.25, delay);
     CHECK(result.verdict == Equivalence::undecided);
     CHECK(!result.needed);

@@ -63,7 +63,7 @@ TEST_CASE(
     CHECK(!interval_of({}, share));
 }
 
-TEST_CASE("interval: by Student's t, equal values have no interval") {
+TEST_CASE("interval: for equal values there is no interval by Student's t") {
     CHECK(!interval_of(std::vector<double>(30, 0.25), delay));
     CHECK(!interval_of(std::vector<double>(30, 1.0), share, 0.95, IntervalMethod::t));
 }
@@ -78,7 +78,7 @@ TEST_CASE("interval: by Student's t, an interval is clipped at the metric's boun
     CHECK(interval_of(values, difference_bounds(delay))->low < 0);
 }
 
-TEST_CASE("interval: values too skewed for t are marked, normal values are not") {
+TEST_CASE("interval: values that are too skewed for Student's t are marked, other values are not") {
     std::vector<double> rare(30, 0.1);
     rare[7] = 9;
     CHECK(too_skewed_for_t(rare));
@@ -96,7 +96,7 @@ TEST_CASE("interval: values too skewed for t are marked, normal values are not")
 }
 
 TEST_CASE(
-    "interval: the number of replications needed is estimated by the method of the interval") {
+    "interval: the number of replications needed is estimated by the same method as the interval") {
     const std::vector<double> values = {0.5, 0.6, 0.7, 0.6};
     CHECK(replications_for_width(values, delay, 0.05) ==
           replications_needed(*summary_of(values), 0.05));

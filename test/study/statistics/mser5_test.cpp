@@ -93,14 +93,13 @@ TEST_CASE("MSER-5: a jump after the middle of the series is not detected") {
     CHECK(mser5(step(200, 150, 3)) == Truncation{.observations = 0, .conclusive = true});
 }
 
-TEST_CASE(
-    "MSER-5: of fewer than 50 observations none is cut off, and the result is not conclusive") {
+TEST_CASE("MSER-5: fewer than 50 observations are all kept, and the result is not conclusive") {
     CHECK(mser5({}) == Truncation{});
     CHECK(mser5(step(49, 20, 3)) == Truncation{.observations = 0, .conclusive = false});
     CHECK(mser5(step(50, 20, 3)) == Truncation{.observations = 20, .conclusive = true});
 }
 
-TEST_CASE("MSER-5: up to four observations at the end, an incomplete batch, have no effect") {
+TEST_CASE("MSER-5: an incomplete batch of up to four observations at the end has no effect") {
     for (std::size_t extra = 0; extra < 5; ++extra) {
         std::vector<double> series = fading(200, 2, 10, 15);
         const Truncation whole = mser5(series);
@@ -134,7 +133,7 @@ TEST_CASE("MSER-5: the result equals an evaluation by brute force on 300 noisy s
     CHECK(deleting < 300);
 }
 
-TEST_CASE("MSER-5: an offset of 1e9 changes nothing") {
+TEST_CASE("MSER-5: adding 1e9 to all observations does not change the result") {
     for (std::uint32_t series = 0; series < 50; ++series) {
         auto values = fading(500, series, 8, 20);
         for (double& v : values) v = std::round(v * 1024) / 1024;  // exact beside 1e9

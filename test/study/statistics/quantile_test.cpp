@@ -154,7 +154,7 @@ TEST_CASE("quantile: in 10,000 studies the intervals cover the true quantile as 
     }
 }
 
-TEST_CASE("quantile: invalid numbers are refused") {
+TEST_CASE("quantile: invalid arguments are refused") {
     const std::array values{1.0, 2.0};
     for (const double bad : {0.0, 1.0, -0.5, 50.0, not_a_number}) {
         CHECK_THROWS_AS(quantile_of(values, bad), std::invalid_argument);

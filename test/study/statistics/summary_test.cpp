@@ -61,8 +61,8 @@ Summary ten(double mean, double variance) {
 TEST_CASE("summary: without values there is no summary") { CHECK(!summary_of({})); }
 
 TEST_CASE(
-    "summary: a single value gives a mean, but no deviation, half-width or number of replications "
-    "needed") {
+    "summary: a single value has a mean, but its deviation, half-width and replications needed are "
+    "undefined") {
     const auto summary = summary_of(std::array{-2.5});
     REQUIRE(summary);
     CHECK(*summary ==
@@ -118,7 +118,9 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("summary: an offset of 1e9 only shifts mean and extremes, without loss of digits") {
+TEST_CASE(
+    "summary: adding 1e9 to all values shifts only mean, minimum and maximum, without loss of "
+    "digits") {
     std::vector<double> plain, shifted;
     for (std::size_t i = 0; i < 999; ++i) {  // multiples of 2^-10, which stay exact beside 1e9
         const auto steps = below({.purpose = Purpose::order, .index = i}, 4096);
@@ -132,7 +134,7 @@ TEST_CASE("summary: an offset of 1e9 only shifts mean and extremes, without loss
     CHECK(is_close(a->mean + 1e9, b->mean, 1e-16));
 }
 
-TEST_CASE("summary: an outlier as the first value costs no digit of the results") {
+TEST_CASE("summary: the results keep all their digits even if the first value is an outlier") {
     std::vector<double> values{1e9};
     for (int i = 0; i < 4; ++i) {
         values.push_back(1);

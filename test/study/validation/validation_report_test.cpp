@@ -90,7 +90,7 @@ TEST_CASE(
     panel.points[3].error_high = 1.6;  // meets that of the cheaper one
     CHECK(pareto_front(panel.points) == Front{1});
     CHECK(count(validation_svg({.name = "s", .title = "t", .truth = "", .panels = {panel}}),
-                "surely nearer the reference") == 1);
+                "surely nearer to the reference") == 1);
 }
 
 TEST_CASE(
@@ -184,8 +184,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "validation: a chart that continues another chart is in the same section, which states the "
-    "true reference only once") {
+    "validation: if a chart continues another one, both are in one section, which states the "
+    "reference once") {
     Validation validation = small_validation();
     validation.charts.push_back(validation.charts[0]);
     validation.charts[1].title = "And then?";
@@ -196,8 +196,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "headline chart: models are in order of cost, and the reference with fewer paths is never "
-    "named the best model") {
+    "headline chart: models are in order of cost; the reference model computed with fewer paths is "
+    "never named the best") {
     const auto point = [](const char* label, const char* series, double cost, double error) {
         return ValidationPoint{.label = label,
                                .series = series,

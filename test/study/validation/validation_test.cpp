@@ -122,7 +122,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "validation: link changes are predicted within the limits, and checks at fixed steps see them "
+    "validation: link changes are predicted within the limits; checks at fixed time steps see them "
     "late") {
     Promises promises;
     const ValidationChart chart = link_changes_chart(few, promises);
@@ -140,7 +140,7 @@ TEST_CASE(
 
 TEST_CASE(
     "validation: the decision whether a link is up is exact without logarithms, and has errors "
-    "with a table") {
+    "with a table of logarithms") {
     Promises promises;
     const ValidationChart chart = decisions_chart(few, promises);
     check_kept(promises);

@@ -42,13 +42,14 @@ std::string first_difference(int tries, Draw draw) {
 
 }  // namespace
 
-TEST_CASE("two decimals: exact ties are rounded to the even digit, as by printf") {
+TEST_CASE("printing two decimals: exact ties are rounded to the even digit, as by printf") {
     CHECK(fixed2(0.125) == "0.12");
     CHECK(fixed2(0.375) == "0.38");
     CHECK(fixed2(-0.625) == "-0.62");
 }
 
-TEST_CASE("two decimals: a decimal that only looks like a tie is rounded by its binary value") {
+TEST_CASE(
+    "printing two decimals: a number that only looks like a tie is rounded by its binary value") {
     CHECK(fixed2(1.005) == "1.00");  // 1.00499999999999989...
     CHECK(fixed2(0.145) == "0.14");  // 0.14499999999999999...
     CHECK(fixed2(0.285) == "0.28");  // 0.284999999999999976; times 100 it rounds to the tie 28.5
@@ -56,7 +57,7 @@ TEST_CASE("two decimals: a decimal that only looks like a tie is rounded by its 
     CHECK(fixed2(1.115) == "1.11");
 }
 
-TEST_CASE("two decimals: signs, zeros, huge numbers and NaN are printed as by printf") {
+TEST_CASE("printing two decimals: signs, zeros, huge numbers and NaN are printed as by printf") {
     for (const double x :
          {0.0, -0.0, -0.001, 0.01, 99.995, 1e12, 3.9999e13, 4e13, 4.1e13, -1e15,
           1.7976931348623157e308, 5e-324, 2.2250738585072014e-308,
@@ -65,12 +66,14 @@ TEST_CASE("two decimals: signs, zeros, huge numbers and NaN are printed as by pr
     }
 }
 
-TEST_CASE("two decimals: the text equals that of printf for random doubles of every magnitude") {
+TEST_CASE(
+    "printing two decimals: the text equals that of printf for random doubles of every magnitude") {
     std::mt19937_64 draw(1);
     CHECK(first_difference(200'000, [&] { return std::bit_cast<double>(draw()); }) == "");
 }
 
-TEST_CASE("two decimals: the text equals that of printf for ties and the numbers next to them") {
+TEST_CASE(
+    "printing two decimals: the text equals that of printf for ties and the numbers next to them") {
     std::mt19937_64 draw(2);
     const auto near_tie = [&] {
         const auto whole = static_cast<double>(draw() >> (13 + draw() % 50));

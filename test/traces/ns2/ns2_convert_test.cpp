@@ -327,8 +327,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "trace follow: the hops of a copy follow from its TTL, also if its sender forwarded the "
-    "message twice") {
+    "trace follow: the number of hops of a copy is computed from its TTL, also if its sender "
+    "forwarded the message twice") {
     const TempFolder folder;
     const std::string again =
         "f 1.620000000 _1_ RTR  --- 0 message 64 [0 ffffffff 0 800] ------- [0:0 -1:0 1 0] \n"

@@ -103,7 +103,7 @@ TEST_CASE("ns-2 motion: without M lines (movements), robots go straight between 
     check_place(motion, 99s, {9, 7});
 }
 
-TEST_CASE("ns-2 motion: movements are in order of time, in any order of lines") {
+TEST_CASE("ns-2 motion: movements are sorted by time, whatever the order of the lines") {
     Ns2Motion motion;
     motion.is_at(robot, at(1s), {});
     motion.is_at(robot, at(1s), {4, 0});

@@ -113,7 +113,7 @@ struct Recorded {
 }  // namespace
 
 TEST_CASE(
-    "reader: from a trace with MAC lines, the metrics equal those of the run, to the last digit") {
+    "ns-2 reader: metrics from a trace with MAC lines equal those of the run, to the last digit") {
     for (const auto format : {Ns2Format::old_format, Ns2Format::new_format}) {
         for (unsigned seed = 0; seed < 20; ++seed) {
             const Recorded run(format, seed, 2 + static_cast<int>(seed) * 7, 2'000, MacTrace::on);
@@ -135,7 +135,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("reader: without MAC lines everything is read except losses on air") {
+TEST_CASE("ns-2 reader: without MAC lines everything is read except losses on air") {
     for (const auto format : {Ns2Format::old_format, Ns2Format::new_format}) {
         for (unsigned seed = 0; seed < 5; ++seed) {
             const Recorded plain(format, seed, 20, 1'000);
@@ -153,7 +153,7 @@ TEST_CASE("reader: without MAC lines everything is read except losses on air") {
     }
 }
 
-TEST_CASE("reader: a trace read and written again is unchanged") {
+TEST_CASE("ns-2 reader: a trace that is read and written again is unchanged") {
     const Recorded run(Ns2Format::old_format, 7, 30, 3'000);
     const TempFolder folder;
     write_file(folder / "run.tr", run.text);
@@ -173,7 +173,7 @@ TEST_CASE("reader: a trace read and written again is unchanged") {
     CHECK_FALSE(std::getline(copied, other));
 }
 
-TEST_CASE("reader: every field of a record is reconstructed") {
+TEST_CASE("ns-2 reader: every field of a run's records is reconstructed from the trace") {
     const auto r = records_of(
         old_lines +
         "f 1.002000000 _1_ RTR  --- 0 message 64 [0 ffffffff 0 800] ------- [0:0 -1:0 2 0] \n"
@@ -207,7 +207,7 @@ TEST_CASE("reader: every field of a record is reconstructed") {
 }
 
 TEST_CASE(
-    "reader: an annotation (number of reachable robots) applies only to the message that it "
+    "ns-2 reader: an annotation (number of reachable robots) applies only to the message that it "
     "names") {
     const auto annotated = [](const std::string& uid) {
         return records_of("v 1 eval {set sim_annotation {reachable " + uid + " 1}}\n" + old_lines)
@@ -218,7 +218,7 @@ TEST_CASE(
     CHECK_FALSE(annotated("7"));
 }
 
-TEST_CASE("reader: robots move as in the M lines (movements) of the trace") {
+TEST_CASE("ns-2 reader: robots move as in the M lines (movements) of the trace") {
     const auto r = records_of(old_lines);
     REQUIRE(r.moved.size() == 2);
     CHECK(r.legs.leg(NodeId{0}).end == never);
@@ -227,7 +227,8 @@ TEST_CASE("reader: robots move as in the M lines (movements) of the trace") {
     CHECK(r.legs.position(NodeId{1}, at(9'000'000'000)) == Vec3{3, 4, 1});
 }
 
-TEST_CASE("reader: one file may contain lines of both ns-2 formats, and any kind of line ends") {
+TEST_CASE(
+    "ns-2 reader: one file may contain lines of both ns-2 formats, and any kind of line ends") {
     CHECK(metrics_of(old_lines).deliveries == 1);
     CHECK(metrics_of(new_line).messages == 1);
     const std::string second = "s 2.0 _1_ AGT  --- 1 message 9 [0 0 0 0] ------- [1:0 -1:0 3 0]";
@@ -238,7 +239,7 @@ TEST_CASE("reader: one file may contain lines of both ns-2 formats, and any kind
     CHECK(metrics_of("").messages == 0);
 }
 
-TEST_CASE("reader: lines of ns-2 that rovernet does not write are skipped") {
+TEST_CASE("ns-2 reader: lines of ns-2 that rovernet does not write are skipped") {
     const std::string foreign =
         "\n"
         "# a comment\n"
@@ -269,7 +270,7 @@ TEST_CASE("reader: lines of ns-2 that rovernet does not write are skipped") {
     CHECK(with.drops == without.drops);
 }
 
-TEST_CASE("reader: the additional columns of an energy model do not change what is read") {
+TEST_CASE("ns-2 reader: the additional columns of an energy model do not change what is read") {
     std::string text = old_lines;
     const std::string energy = "[energy 98.312702 ei 1.328 es 0.000 et 0.116 er 0.243] ";
     for (std::size_t i = 0; (i = text.find("-------", i)) != text.npos; i += energy.size() + 7) {
@@ -279,7 +280,8 @@ TEST_CASE("reader: the additional columns of an energy model do not change what 
 }
 
 TEST_CASE(
-    "reader: the error for a broken line has line, column, what was found and what was expected") {
+    "ns-2 reader: the error for a broken line has line, column, what was found and what was "
+    "expected") {
     const auto number_of_lines = "run.tr:8:";  // after the seven good ones
     const auto broken = [&](const std::string& line) { return error_of(old_lines + line + "\n"); };
     const std::string rest = " RTR  --- 0 message 64 [0 ffffffff 0 800] ------- [0:0 -1:0 3 0] ";
@@ -318,7 +320,7 @@ TEST_CASE(
           "run.tr:8:1: found \"??\", expected a line of an ns-2 trace (s, r, f, D, d, M, ...)");
 }
 
-TEST_CASE("reader: a file that is missing, or not text, is refused") {
+TEST_CASE("ns-2 reader: a file that is missing, or not text, is refused") {
     const TempFolder folder;
     CHECK_THROWS_AS(trace_metrics(folder / "missing.tr"), InputError);
     CHECK_THROWS_AS(trace_metrics(folder / "."), InputError);
@@ -329,7 +331,7 @@ TEST_CASE("reader: a file that is missing, or not text, is refused") {
     CHECK(error_of("# " + std::string(65'000, 'x') + "\n") == "");
 }
 
-TEST_CASE("reader: lines that cross the blocks in which the file is read are read correctly") {
+TEST_CASE("ns-2 reader: lines that cross the blocks in which the file is read are read correctly") {
     std::string text = old_lines;
     std::uint64_t messages = 1;
     for (; text.size() < 2'000'000; ++messages) {
@@ -339,7 +341,7 @@ TEST_CASE("reader: lines that cross the blocks in which the file is read are rea
     CHECK(metrics_of(text).messages == messages);
 }
 
-TEST_CASE("reader: a damaged trace is read or refused, without a crash") {
+TEST_CASE("ns-2 reader: a damaged trace is read or refused, without a crash") {
     std::mt19937 draw(5);
     const auto below = [&](std::size_t n) { return draw() % n; };
     int refused = 0;
@@ -363,7 +365,7 @@ TEST_CASE("reader: a damaged trace is read or refused, without a crash") {
     CHECK(refused < 400);
 }
 
-TEST_CASE("reader: a file without any line of an ns-2 trace is refused") {
+TEST_CASE("ns-2 reader: a file without any line of an ns-2 trace is refused") {
     const TempFolder folder;
     write_file(folder / "run.tr", "# by hand\n[scenario]\nname = \"A\"\n");
     try {

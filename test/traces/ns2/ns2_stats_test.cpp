@@ -113,7 +113,8 @@ TEST_CASE("trace stats: the jitter and throughput of a flow equal values compute
     CHECK_FALSE(stats_of(sent("1", 0)).throughput);
 }
 
-TEST_CASE("trace stats: packets of routing protocols count as load, also when they are forwarded") {
+TEST_CASE(
+    "trace stats: packets of routing protocols count as routing load, also if they are forwarded") {
     const std::string request = " --- 0 AODV 48 [0 0 0 0] ------- [0:255 -1:255 30 0] [0x2] \n";
     const auto s = stats_of(sent("1", 0) + "s 1.0 _0_ RTR " + request + "f 1.1 _1_ RTR " + request +
                             "r 1.1 _1_ RTR " + request + "s 1.1 _1_ MAC " + request +

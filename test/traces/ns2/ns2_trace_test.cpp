@@ -58,7 +58,7 @@ std::string without_first_lines(std::string text, int n) {
 
 }  // namespace
 
-TEST_CASE("ns-2 trace: movements are equal in both formats") {
+TEST_CASE("ns-2 trace: the lines of movements are equal in the old and the new format") {
     const auto old_text = trace_of(Ns2Format::old_format, play);
     CHECK(
         old_text.starts_with("M 0.00000 0 (0.00, 1.00, 0.50), (0.00, 1.00), 0.00\n"
@@ -246,7 +246,7 @@ TEST_CASE(
     CHECK(text.find("MAC") == text.npos);
 }
 
-TEST_CASE("ns-2 trace: a trace longer than the buffer is complete") {
+TEST_CASE("ns-2 trace: a trace that is longer than the buffer is written completely") {
     const auto text = trace_of(Ns2Format::new_format, [](Stream& s) {
         s.place(Vec3{});
         for (int i = 0; i < 1000; ++i) s.send(at(i), a, 1);
@@ -265,7 +265,7 @@ TEST_CASE("ns-2 trace: the file gets its name only when it is complete") {
     CHECK(folder.has("run.tr"));
 }
 
-TEST_CASE("ns-2 trace: an interrupted run leaves the old file, and no partial file") {
+TEST_CASE("ns-2 trace: an interrupted run leaves the old file unchanged, and no partial file") {
     const TempFolder folder;
     write_file(folder / "run.tr", "yesterday's\n");
     const auto interrupted = [&] {

@@ -375,7 +375,7 @@ void check(const Sample& sample, const Variant& variant) {
 
 }  // namespace
 
-TEST_CASE("damaged recorded trace: each record is read, or lost with its chunk and reported") {
+TEST_CASE("damaged recorded trace: a record is either read, or lost with its chunk and reported") {
     const Sample sample;
     for (const auto& make :
          {truncated, broken_chunks, misled, broken_indexes, broken_elsewhere, nonsense}) {
@@ -425,7 +425,8 @@ TEST_CASE(
     CHECK(messages == 0);
 }
 
-TEST_CASE("damaged recorded trace: wrong sizes never make the reader need more than 256 MB") {
+TEST_CASE(
+    "damaged recorded trace: if sizes in the file are wrong, the reader needs at most 256 MB") {
     if (test::has_address_sanitizer) {
         MESSAGE("memory is not measured: what is freed stays for a while");
         return;

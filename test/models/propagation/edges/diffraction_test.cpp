@@ -149,7 +149,7 @@ TEST_CASE("wedge: the field around a screen equals Sommerfeld's exact field (utd
 }
 
 TEST_CASE(
-    "wedge: around a right angle the field is within 0.05 dB of the exact one (utd_vs_exact)") {
+    "wedge: around a right angle the field is within 0.05 dB of the exact field (utd_vs_exact)") {
     const auto rows = for_each_row(false, [](const Row& row) {
         for (const bool soft : {true, false}) {
             const double exact = decibels(soft ? row.soft : row.hard);
@@ -218,7 +218,7 @@ TEST_CASE("wedge: an edge diffracts nothing if it is flat or lets everything thr
 }
 
 TEST_CASE(
-    "wedge: source and receiver can be exchanged without changing a bit, also with lossy faces") {
+    "wedge: the coefficient is the same to the last bit if source and receiver are exchanged") {
     const auto reflection = [](Radians incidence) {  // of a dielectric half space, TE
         const double cosine = std::cos(incidence.value);
         const double root = std::sqrt(4 + cosine * cosine);
