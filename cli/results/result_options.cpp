@@ -8,8 +8,8 @@ namespace {
 constexpr const char* only_points =
     "use only the runs with this value of a varied key, such as ttl=6";
 constexpr const char* only_cells =
-    "if some rows lack runs: use only the combinations of values and replications that every row "
-    "has";
+    "if runs are missing from some rows of the table: leave the same runs (values of other keys, "
+    "and replication) out of every row";
 
 void add_results(Command app) {
     const auto [results, a] =

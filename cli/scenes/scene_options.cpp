@@ -15,7 +15,8 @@ void add_link(Command app) {
     link.add_option("B", a.to, "receiving robot").required();
     link.add_option("--at", a.at, "simulated time, such as 12.5s").shows_default();
     const Option out = link.add_option("-o,--output", a.out,
-                                       "draw the budget as steps: NAME.svg, NAME.png or NAME.pdf");
+                                       "draw the link budget with one step for each gain and loss: "
+                                       "NAME.svg, NAME.png or NAME.pdf");
     add_json(link, a.json);
     link.option("--json").excludes(out);
 }
@@ -108,10 +109,10 @@ void add_draw(Command app) {
                        "20s -o route.svg"});
     add_file(draw, a, any_file);
     draw.add_option("--at", a.at, "simulated time, such as 12.5s").shows_default();
-    Option coverage =
-        draw.add_option("--coverage", a.coverage,
-                        "transmitting robot; draw its received power over the map. "
-                        "With several robots A,B: the power received from the strongest one");
+    Option coverage = draw.add_option(
+        "--coverage", a.coverage,
+        "transmitting robot; draw over the map the power that is received from this robot. "
+        "With several robots A,B: the power from the strongest one");
     coverage.delimiter(',');
     draw.add_option("--for", a.receiver,
                     "robot whose radio and antenna height are used for reception (default: the "

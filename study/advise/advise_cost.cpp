@@ -187,11 +187,12 @@ std::string advice_text(const Advice& advice) {
         advice.rule.by_betting() ? ", whatever the distribution" : ", by Student's intervals");
     if (advice.saves_nothing()) {
         return fmt::format(
-            "Take the reference, {}. The radio takes only {} of the CPU time of a run ({:.2g} ms), "
-            "so a cheaper model saves almost nothing. {} would be sufficient: {} ({}).{}",
-            reference, percent_text(advice.reference_cost.share.value_or(0)),
-            1e3 * advice.reference_cost.run_s, chosen->name, nearness_text(advice, reference), sure,
-            undecided_text(advice));
+            "Take the reference, {}. A run takes {:.2g} ms of CPU time, and the radio takes only "
+            "{} of this time, so a cheaper model saves almost nothing. {} would be sufficient: {} "
+            "({}).{}",
+            reference, 1e3 * advice.reference_cost.run_s,
+            percent_text(advice.reference_cost.share.value_or(0)), chosen->name,
+            nearness_text(advice, reference), sure, undecided_text(advice));
     }
     return interim + fmt::format("Take {}: {} ({}).{}{}", chosen->name,
                                  nearness_text(advice, reference), sure,

@@ -199,10 +199,11 @@ void check_anchors(const ValidationPanel& panel, Promises& promises) {
     constexpr double allowed = 0.2;  // [dB] for walls as the map draws them
     const auto add = [&](const char* model, const char* series, double published) {
         const double excess = point_of(panel, model, series).error - published;
-        promises.push_back({fmt::format("difference between the rms error of {} ({}) in the {} "
-                                        "and the {} dB that an independent analysis found",
-                                        model, series, panel.title, published),
-                            "dB", allowed, std::max(0.0, excess), 1});
+        promises.push_back(
+            {fmt::format("amount by which the rms error of {} ({}) in the {} exceeds "
+                         "the {} dB that an independent analysis found",
+                         model, series, panel.title, published),
+             "dB", allowed, std::max(0.0, excess), 1});
     };
     const bool flat = panel.title == "flat";
     add("friis", with_defaults, flat ? 5.39 : 4.90);

@@ -126,8 +126,8 @@ TEST_CASE("edge row: in deep shadow the field is the product of the diffracted r
 }
 
 TEST_CASE(
-    "edge row: the loss is symmetric and continuous; a corner far below the line of sight hardly "
-    "matters") {
+    "edge row: the loss is continuous, and the same in both directions; a corner far below the "
+    "line of sight hardly matters") {
     const std::vector<RowCorner> there{{3, 0, 0.2, 0}, {6, 0.1, 0, 1}, {8, 0, 0.05, 2}};
     const std::vector<RowCorner> back{{2, 0, 0.05, 2}, {4, 0.1, 0, 1}, {7, 0, 0.2, 0}};
     CHECK(near(row_loss(there, 10), row_loss(back, 10), 1e-9));

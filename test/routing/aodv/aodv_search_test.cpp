@@ -118,8 +118,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "aodv 6.3, profile ns2: if a reply comes before the first request of a search, no time per hop "
-    "is measured") {
+    "aodv 6.3, profile ns2: a late reply to an earlier search is not used to measure the time per "
+    "hop") {
     AodvNode n({.profile = AodvProfile::ns2}, 40);
     n.link.time += 100s;
     for (std::uint32_t to = 10; to < 21; ++to) n.send(to);

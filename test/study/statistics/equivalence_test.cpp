@@ -97,7 +97,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("equivalence: the bets' wealth after three differences equals a manual computation") {
+TEST_CASE("equivalence: after three differences, the wealth of the bets equals a value by hand") {
     // Margin 1/2, differences 1/2, 0, 0; the bet against "D >= 1/2": s = -1, m = 1/2.
     // 1: mean 0, var 1/4: lambda = (1/2) / (1/4 + 1/4) = 1, cut at 0.9 / 1.5 = 0.6; W = 1.
     // 2: mean 1/4, var (1/4 + 1/16) / 2 = 5/32: (1/4) / (5/32 + 1/16) = 8/7, cut; W = 1.3.

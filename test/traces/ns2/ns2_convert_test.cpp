@@ -138,7 +138,7 @@ TEST_CASE("trace convert: control frames of the MAC are omitted with a notice") 
 }
 
 TEST_CASE(
-    "trace convert: payloads of constant bit rate and of TCP are converted between both formats") {
+    "trace convert: fields of CBR and TCP packets are converted between the old and new format") {
     const std::string place = "M 0.00000 5 (1.00, 2.00, 0.00), (1.00, 2.00), 0.00\n";
     const std::string cbr =
         "r 1.000000000 _5_ RTR  --- 3 cbr 532 [13a a 5 800] ------- [5:0 3:1 30 6] [3] 1 0\n";
