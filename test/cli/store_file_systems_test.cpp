@@ -211,7 +211,7 @@ TEST_CASE(
         const Ended refused = Place::run(place.sweep(lacks));
         CHECK(refused.exit == 1);
         CHECK(refused.err.find("process 12 on elsewhere") != std::string::npos);
-        CHECK(refused.err.find("remove " + lock) != std::string::npos);
+        CHECK(refused.err.find("remove the file " + lock) != std::string::npos);
     }
     fs::remove(lock);
     CHECK(Place::run(place.sweep("whole")).exit == 0);

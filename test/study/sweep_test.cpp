@@ -220,13 +220,14 @@ TEST_CASE("sweep: runs of a different scenario or version are not mixed with exi
                     "now \"1 s\"") != std::string::npos);
     // The scenario's own value of a varied key has no effect, and so is no reason.
     const std::string seed = message_of(bench, {"propagation.range=9 m", "scenario.seed=2"});
-    CHECK(seed.find("this point: scenario.seed was 1 and is now 2;") != std::string::npos);
+    CHECK(seed.find("this point (reason: scenario.seed was 1 and is now 2);") != std::string::npos);
     // A value that is varied no more is the reason, whatever else is the same.
     const std::string fewer =
         message_of(bench, {"study.vary={ \"propagation.range\" = [\"30 m\"] }"});
-    CHECK(fewer.find("the store has runs of propagation.range=15 m, but the study does not have "
-                     "this point: [study] no longer "
-                     "contains this point; expected --fresh") != std::string::npos);
+    CHECK(fewer.find(
+              "the store has runs of propagation.range=15 m, but the study does not have "
+              "this point (reason: [study] no longer contains this point); expected --fresh") !=
+          std::string::npos);
     CHECK(fewer.find("the map or") == std::string::npos);
     { Store::open_to_write(bench.store()).set_property("version", "0.0.9 (abc)"); }
     CHECK(message_of(bench).find("0.0.9 (abc)") != std::string::npos);
