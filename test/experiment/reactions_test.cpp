@@ -141,7 +141,7 @@ TEST_CASE(
     }
     CHECK(error ==
           ":15:36: on_time of robot \"b\" at 1.5 s: random_walk: the robot must begin inside the "
-          "area (50, 0) to (90, 9) m, but is at (8, 0) m");
+          "area from (50, 0) to (90, 9) m, but is at (8, 0) m");
 }
 
 TEST_CASE("movement file: the file creates the robots that it names, and moves existing robots") {

@@ -379,10 +379,10 @@ TEST_CASE("random_waypoint: invalid parameters are refused") {
     const auto area = box(1, 1);
     CHECK(refused({}, "the key \"area\" must be given, because the scene is an open field"));
     CHECK(refused({.area = {{0, 0}}}, "\"area\" must be two corners"));
-    CHECK(refused({.area = {{0, 0}, {0, 5}}}, "right of and above"));
-    CHECK(refused({.area = {{0, 0}, {-1, 5}}}, "right of and above"));
-    CHECK(refused({.area = {{0, 0}, {std::nan(""), 5}}}, "right of and above"));
-    CHECK(refused({.area = {{-1e308, 0}, {1e308, 5}}}, "right of and above"));
+    CHECK(refused({.area = {{0, 0}, {0, 5}}}, "right of the first corner and above"));
+    CHECK(refused({.area = {{0, 0}, {-1, 5}}}, "right of the first corner and above"));
+    CHECK(refused({.area = {{0, 0}, {std::nan(""), 5}}}, "right of the first corner and above"));
+    CHECK(refused({.area = {{-1e308, 0}, {1e308, 5}}}, "right of the first corner and above"));
     CHECK(refused({.area = area, .min_speed = {0}}, "the mean speed decays to 0"));
     CHECK(refused({.area = area, .min_speed = {-1}}, "min_speed must be >= 0, got -1"));
     CHECK(refused({.area = area, .min_speed = {2}, .max_speed = {1}}, ">= min_speed = 2, got 1"));

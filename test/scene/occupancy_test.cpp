@@ -231,7 +231,7 @@ TEST_CASE(
     for (const char* path : {"/home/someone/maps/map.pgm", "~/maps/map.pgm", "maps/map.pgm",
                              "'C:\\maps\\map.pgm'", "../map.pgm"}) {
         const std::string error = error_of(std::string("image: ") + path + rest);
-        CHECK_MESSAGE(contains(error, "1:8 image"), error);
+        CHECK_MESSAGE(contains(error, "1:8 \"image\" is "), error);
         CHECK_MESSAGE(contains(error,
                                "there is no such file, but there is \"map.pgm\" in the same "
                                "folder; write image: map.pgm"),

@@ -141,15 +141,15 @@ test("view server: valid requests are answered; foreign hosts and pages, other m
         [request("GET /", "Host: 127.0.0.1"), 403, "Host: found \"127.0.0.1\""],
         [request("GET /"), 400, "expected one header Host"],
         [request("GET /", `Host: ${own}`, `Host: ${own}`), 400, "expected one header Host"],
-        [request("GET /run.rvw", `Host: ${own}`, "Origin: http://page.example"), 403, "a page needs the token"],
-        [request("GET /run.rvw", `Host: ${own}`, "Origin: null"), 403, "a page needs the token"],
-        [request("GET /run.rvw?token=0123", `Host: ${own}`, "Origin: http://page.example"), 403, "a page needs the token"],
+        [request("GET /run.rvw", `Host: ${own}`, "Origin: http://page.example"), 403, "needs the token"],
+        [request("GET /run.rvw", `Host: ${own}`, "Origin: null"), 403, "needs the token"],
+        [request("GET /run.rvw?token=0123", `Host: ${own}`, "Origin: http://page.example"), 403, "needs the token"],
         [request("POST /", `Host: ${own}`, "Content-Length: 0"), 405, "expected GET or HEAD"],
         [request("GET /../../etc/passwd", `Host: ${own}`), 404, "there is no such page"],
         [request("GET /nothing", `Host: ${own}`), 404, "there is no such page"],
         [request("GET /nothing", `Host: ${own}`, ...upgrade, key), 101, ""],
         [request("GET /", `Host: ${own}`, ...upgrade, "Sec-WebSocket-Key: short"), 400, "expected 16 bytes in base64"],
-        [request("GET /", `Host: ${own}`, ...upgrade, key, "Origin: http://page.example"), 403, "a page needs the token"],
+        [request("GET /", `Host: ${own}`, ...upgrade, key, "Origin: http://page.example"), 403, "needs the token"],
         [request("GET /", `Host: ${own}`, `X: ${"x".repeat(9000)}`), 0, ""]
     ];
     for (const [text, status, words] of rows) {

@@ -144,9 +144,9 @@ TEST_CASE("fcd: content that is invalid in an FCD file is refused, with line and
     CHECK(body(step("0", at("a", "", "1"))) ==
           "fcd.xml:4:20: found <vehicle> without the attribute x, expected x=\"...\"");
     CHECK(body(step("0", "<vehicle id=\"a\" x=\"1\"/>")) ==
-          "fcd.xml:4:20: found <vehicle> without y, expected y=\"...\"");
+          "fcd.xml:4:20: found <vehicle> without the attribute y, expected y=\"...\"");
     CHECK(body("<timestep/>") ==
-          "fcd.xml:4:1: found <timestep> without time, expected time=\"...\"");
+          "fcd.xml:4:1: found <timestep> without the attribute time, expected time=\"...\"");
     CHECK(body(step("0", "<vehicel id=\"a\"/>")) ==
           "fcd.xml:4:20: found <vehicel>, expected <timestep> with <vehicle>, <person> or "
           "<container>; did you mean \"vehicle\"?");
