@@ -247,7 +247,9 @@ std::shared_ptr<const Scene> load_walls(const SceneTable& scene, const std::stri
                                         const WorldFile& world, std::vector<std::string>& notices) {
     StageWalls walls = stage_walls(world, world_options(scene, file));
     notices.insert(notices.end(), walls.notices.begin(), walls.notices.end());
+    std::vector<std::string> colors;  // of the walls
     for (Material& material : walls.materials) {
+        colors.push_back(material.name);
         const auto found =
             std::find_if(scene.materials.begin(), scene.materials.end(),
                          [&](const MaterialTable& t) { return t.color == material.name; });
@@ -258,12 +260,13 @@ std::shared_ptr<const Scene> load_walls(const SceneTable& scene, const std::stri
     }
     for (const MaterialTable& table : scene.materials) {
         if (!table.has_walls()) continue;
-        const bool used = std::any_of(walls.materials.begin(), walls.materials.end(),
-                                      [&](const Material& m) { return table.color == m.name; });
+        const bool used = std::any_of(colors.begin(), colors.end(),
+                                      [&](const auto& color) { return table.color == color; });
         if (used) continue;
         notices.push_back(fmt::format(
-            "{}: material \"{}\": no wall of the Stage world has the colour of this material",
-            table.where.text(), table.name));
+            "{}: material \"{}\": no wall of the Stage world has the colour of this material; its "
+            "walls have the colours {}",
+            table.where.text(), table.name, fmt::join(colors, ", ")));
     }
     if (walls.grids.empty()) return nullptr;
     return std::make_shared<const Scene>(std::move(walls.grids), std::move(walls.materials));

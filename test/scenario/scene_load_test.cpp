@@ -9,10 +9,12 @@
 #include "test/scene/temporary_folder.hpp"
 
 #include <doctest/doctest.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <tuple>
 
 namespace scene_load_test {
 using namespace rovernet;
@@ -190,6 +192,19 @@ TEST_CASE(
         "[scene]\nworld = \"box.world\"\n[scene.materials]\nbox = { color = \"brown\", "
         "per_crossing = \"6 dB\" }\n");
     CHECK(near(cost(file), 6));
+    // Only a material whose colour no wall has gives a notice, which lists the colours.
+    for (const auto& [name, color, notices] : {std::tuple{"brick", "brown", 0}, {"x", "red", 1}}) {
+        const Scenario scenario = load_scenario(
+            folder.write("t.toml", fmt::format("[scene]\nworld = \"box.world\"\n"
+                                               "[scene.materials]\n{} = {{ color = \"{}\", "
+                                               "per_crossing = \"6 dB\" }}\n",
+                                               name, color)),
+            {});
+        CHECK(std::count_if(scenario.notices.begin(), scenario.notices.end(),
+                            [](const std::string& notice) {
+                                return notice.ends_with("its walls have the colours brown");
+                            }) == notices);
+    }
     const std::string material = "scene.materials.box={color=\"brown\", per_crossing=\"6 dB\"}";
     CHECK(near(cost(box, {.set = {material}}), 6));
 }
