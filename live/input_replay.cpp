@@ -252,7 +252,13 @@ std::pair<fs::path, std::vector<fs::path>> logs_of(const std::string& path) {
     if (!fs::is_directory(path, ignored)) return {path, {}};
     const fs::path whole = fs::path(path) / input_log_name;
     std::vector<fs::path> parts = parts_in(path);
-    if (parts.empty() || fs::exists(whole, ignored)) return {whole, std::move(parts)};
+    if (fs::exists(whole, ignored)) return {whole, std::move(parts)};
+    if (parts.empty()) {
+        throw InputError({path},
+                         "this folder has no log of a live run (inputs.jsonl); to verify a run "
+                         "without such a log, give its trace, such as " +
+                             (fs::path(path) / "trace.mcap").string());
+    }
     fs::path newest = parts.front();
     parts.erase(parts.begin());
     return {std::move(newest), std::move(parts)};
@@ -262,8 +268,7 @@ std::pair<fs::path, std::vector<fs::path>> logs_of(const std::string& path) {
 
 bool has_input_log(const std::string& path) {
     std::error_code ignored;
-    if (fs::is_directory(path, ignored)) return fs::exists(logs_of(path).first, ignored);
-    return path.ends_with(".jsonl") ||
+    return fs::is_directory(path, ignored) || path.ends_with(".jsonl") ||
            is_part_of(input_log_name, fs::path(path).filename().native());
 }
 

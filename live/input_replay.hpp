@@ -25,8 +25,8 @@ struct InputReplay {
     bool has_own_scenario = false;  ///< true: the scenario is the text in the log, not the file
 };
 
-/// Whether the path is an input log, an incomplete input log (part file), or a folder that contains
-/// such a file.
+/// Whether the path is an input log, an incomplete input log (part file), or a folder, which should
+/// contain such a file.
 bool has_input_log(const std::string& path);
 
 /// Runs a scenario again with the inputs of an input log, as fast as possible. The scenario is the

@@ -223,8 +223,7 @@ void add_fit(Command app) {
             .excludes(to);
     fit.add_option("--check", a.check,
                    "CSV file of levels from a different measurement, such as that of another day, "
-                   "to check the "
-                   "fitted models")
+                   "to check the fitted models")
         .needs(links);
     fit.add_option("--floor", a.floor,
                    "level below which nothing was received, such as \"-94 dBm\"; needed if "

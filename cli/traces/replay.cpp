@@ -338,13 +338,6 @@ std::vector<std::string> assignments(const std::string& with) {
 
 void replay(const ReplayArguments& a) {
     if (a.verify && has_input_log(a.file)) return verify_inputs(a);
-    std::error_code ignored;
-    if (a.verify && std::filesystem::is_directory(a.file, ignored)) {
-        throw InputError({a.file},
-                         "this folder has no log of a live run (inputs.jsonl); to verify a run "
-                         "without such a log, give its trace, such as " +
-                             (std::filesystem::path(a.file) / "trace.mcap").string());
-    }
     if (a.verify) return verify(a);
     if (a.speed) return play_events(a);
     if (a.with.empty() && !a.map && !a.as) {
