@@ -247,13 +247,13 @@ void serve_page(const ViewArguments& a, const std::string& trace, ViewedRun run,
     ViewServer server(
         address, std::move(run.bytes),
         [&](std::string_view question) { return answers.answer(question); }, beside.bytes());
+    const HeldStop until_told;
     fmt::print(
         "{} at {} until Ctrl-C\n",
         beside.run ? beside.comparison->names[0] + " and " + beside.comparison->names[1] : run.name,
         server.url());
     std::fflush(stdout);
     if (a.opens) open_in_browser(server.url());
-    const HeldStop until_told;
     server.serve([] { return stops_asked() == 0; });
 }
 

@@ -29,13 +29,13 @@ for (const [what, words] of [["view", ["view", path.join(folder, "rescue")]], ["
         }));
 }
 
-/** Runs view --open with a folder of programs, until it serves: what it says. */
-async function opened(programs) {
+/** Runs view --open with a folder of programs, until it serves and `is_done(text)`: what it says. */
+async function opened(programs, is_done) {
     const server = spawn(command, ["view", path.join(folder, "rescue"), "--open"], { stdio: ["ignore", "pipe", "pipe"], env: { ...process.env, PATH: programs } });
     let text = "";
-    const ended = new Promise(done => server.on("exit", done));
+    const ended = new Promise(done => server.on("close", done));
     for (const stream of [server.stdout, server.stderr]) stream.on("data", part => text += part);
-    while (!/until Ctrl-C/.test(text) || !/xdg-open/.test(text) && !fs.existsSync(path.join(programs, "opened"))) await new Promise(done => setTimeout(done, 20));
+    while (!/until Ctrl-C/.test(text) || !is_done(text)) await new Promise(done => setImmediate(done));
     server.kill("SIGINT");
     assert.equal(await ended, 0);
     return text;
@@ -45,7 +45,9 @@ test("view --open: xdg-open opens the address; if xdg-open is missing, the comma
     const [with_it, without] = ["with-browser", "without-browser"].map(name => path.join(folder, name));
     for (const each of [with_it, without]) fs.mkdirSync(each);
     fs.writeFileSync(path.join(with_it, "xdg-open"), `#!/bin/sh\necho "$1" > ${with_it}/part && /bin/mv ${with_it}/part ${with_it}/opened\n`, { mode: 0o755 });
-    const address = /http:\S+/.exec(await opened(with_it))[0];
+    const address = /http:\S+/.exec(await opened(with_it, () => fs.existsSync(path.join(with_it, "opened"))))[0];
     assert.equal(fs.readFileSync(path.join(with_it, "opened"), "utf8").trim(), address);
-    assert.match(await opened(without), /xdg-open is not installed; open http:\S+ in a browser/);
+    assert.match(await opened(without, text => /in a browser/.test(text)), /xdg-open is not installed; open http:\S+ in a browser/);
 });
+
+test("view --open: Ctrl-C right after the address was printed ends the server with exit code 0", () => opened("/nowhere", () => true));
