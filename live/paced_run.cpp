@@ -66,19 +66,27 @@ class PacedServer {
         session_ = nullptr;
     }
 
+    /// Whether an error ended the run before its clients had begun.
+    bool failed_to_begin() const {
+        return any([](const Front& f) { return f.failed_to_begin(); });
+    }
+
     /// Seed with which the run must begin anew; none: it is over.
     std::optional<std::uint64_t> new_seed() const { return new_seed_; }
 
-    /// Ends the run for all clients. @return errors that ended it, and of programs
-    std::string close(const RunResult& result) {
+    /// Gives the results to all clients, and serves those that stay.
+    void end(const RunResult& result) {
         Table metrics;
         append_metrics(metrics, result.metrics);
-        std::chrono::milliseconds time_to_end = 10s;
-        for (const ServedFront& each : open_) {
-            each.front->ended(result.fingerprint, metrics);
-            time_to_end = std::min(time_to_end, each.front->time_to_end());
-        }
+        for (const ServedFront& each : open_) each.front->ended(result.fingerprint, metrics);
         stay(result);
+    }
+
+    /// Ends all clients. @return errors that ended the run, and of programs
+    std::string close() {
+        std::chrono::milliseconds time_to_end = 10s;
+        for (const ServedFront& each : open_)
+            time_to_end = std::min(time_to_end, each.front->time_to_end());
         constexpr auto soon = 400ms;
         const bool is_hurried = !options_.stop.go_on();
         web_.close(soon, is_hurried ? 2s : time_to_end);
@@ -208,11 +216,12 @@ class PacedServer {
 
     Time now() const { return session_->network().now(); }
 
+    template <class Holds>
+    bool any(Holds holds) const {
+        return std::ranges::any_of(open_, [&](const auto& each) { return holds(*each.front); });
+    }
+
     bool is_over() const {
-        const auto any = [this](auto holds) {
-            return std::any_of(open_.begin(), open_.end(),
-                               [&](const ServedFront& each) { return holds(*each.front); });
-        };
         if (now() >= session_->end() && !any([](const Front& f) { return f.holds_end(); })) {
             return true;
         }
@@ -303,10 +312,10 @@ class PacedServer {
 
     /// Serves the clients of fronts that stay after the run, until the user stops the program.
     void stay(const RunResult& result) {
-        const auto stays = [](const ServedFront& each) { return each.front->stays(); };
-        if (!options_.stop.go_on() || std::none_of(open_.begin(), open_.end(), stays)) return;
+        const auto stays = [](const Front& f) { return f.stays(); };
+        if (!options_.stop.go_on() || !any(stays)) return;
         options_.finished(result);
-        while (options_.stop.go_on() && std::any_of(open_.begin(), open_.end(), stays)) {
+        while (options_.stop.go_on() && any(stays)) {
             for (const ServedFront& each : open_) each.front->held({});
             listeners_.wait(longest_wait);
         }
@@ -382,15 +391,16 @@ LiveResult run_paced(Scenario scenario, const PacedOptions& options) {
             server.serve(run, scenario, log);
             Table counts = server.report();
             if (!counts.entries.empty()) run.add_part("live", std::move(counts));
-            return !server.new_seed();
+            return !server.new_seed() && !server.failed_to_begin();
         };
         try {
             RunResult result = run_logged(
                 scenario, options.folder, options.stop,
                 [&](ScenarioRun& run) { server.prepare(run, scenario); }, drive);
-            std::string fault = server.close(result);
-            return {std::move(result), std::move(scenario), std::move(fault), server.lateness()};
+            server.end(result);
+            return {std::move(result), std::move(scenario), server.close(), server.lateness()};
         } catch (const Interrupted&) {
+            if (server.failed_to_begin()) throw RunError(server.close());
             if (!server.new_seed() || !options.stop.go_on()) throw;
         }
         scenario.scenario.seed = *server.new_seed();

@@ -189,10 +189,30 @@ bool routes_unicasts(Study& study, std::size_t point) {
     return study.scenario(point, 0).routing.make().traits().routes_unicasts;
 }
 
-/// Whether the scenario has unicasts that a protocol may route.
-bool has_unicasts(const Scenario& scenario) {
-    return std::ranges::any_of(
-        scenario.traffic, [](const TrafficTable& t) { return t.to && !t.hops && !t.saturate; });
+/// Whether the scenario has unicasts, or else broadcasts, that a protocol may forward.
+bool has_messages(const Scenario& scenario, bool unicasts) {
+    return std::ranges::any_of(scenario.traffic, [&](const TrafficTable& t) {
+        return t.to.has_value() == unicasts && !t.hops && !t.saturate;
+    });
+}
+
+/// Text on protocols that send messages of the scenario over one hop only; empty: there are none.
+std::string one_hop_text(Study& study, const Vary& vary) {
+    if (vary.path != protocol_path) return "";
+    std::vector<std::string> unicasts, broadcasts, parts;
+    for (std::uint32_t point = 0; point < vary.values.size(); ++point) {
+        auto& protocols = routes_unicasts(study, point) ? broadcasts : unicasts;
+        protocols.push_back(compared_name(vary.path, vary.values[point]));
+    }
+    const auto tell = [&](bool is_unicast, const std::vector<std::string>& protocols) {
+        if (protocols.empty() || !has_messages(study.base(), is_unicast)) return;
+        parts.push_back(fmt::format("{} under {}", is_unicast ? "unicasts" : "broadcasts",
+                                    fmt::join(protocols, ", ")));
+    };
+    tell(true, unicasts);
+    tell(false, broadcasts);
+    if (parts.empty()) return "";
+    return fmt::format("over one hop only: {}", fmt::join(parts, "; "));
 }
 
 /// Prints that delivery_ratio counts unicasts that are on their way at the end of a run if the
@@ -200,7 +220,7 @@ bool has_unicasts(const Scenario& scenario) {
 void tell_cut_off(Study& study, const Store& store, const Vary& vary,
                   const std::vector<std::string>& metrics) {
     if (vary.path != protocol_path || std::ranges::count(metrics, "delivery_ratio") == 0) return;
-    if (!has_unicasts(study.base())) return;
+    if (!has_messages(study.base(), true)) return;
     std::vector<std::string> routing, others;
     double most_of_routing = 0, most_of_others = 0;
     for (std::uint32_t point = 0; point < vary.values.size(); ++point) {
@@ -273,9 +293,11 @@ void compare(const CompareArguments& a) {
         add_costs(all.front(), study, store, [] { return stops_asked() > 0; });
         check_interrupted(a, false);
     }
+    const std::string one_hop = one_hop_text(study, vary);
     for (Comparison& c : all) {
         tell_other_methods(c, interval_method_of(store));
         c.held = held_keys(given, study.base(), vary.path);
+        c.one_hop = one_hop;
     }
     tell_cut_off(study, store, vary, metrics);
     if (a.picture) write_comparison(*a.picture, all.front(), store);

@@ -70,6 +70,7 @@ Table as_table(const Comparison& c) {
     table.set("confidence", c.confidence);
     if (c.margin) table.set("margin", *c.margin);
     table.set("held", c.held);
+    table.set("one_hop", c.one_hop);
     table.set("failed", c.runs.failed);
     table.set("missing", c.runs.missing);
     Array rows, pairs;
@@ -179,7 +180,9 @@ void print_table(const Comparison& c, bool is_brief) {
 
 /// Notes on the data behind the numbers, and missing runs.
 void print_coverage(const Comparison& c) {
-    if (!c.held.empty()) fmt::print("{}\n", c.held);
+    for (const std::string& text : {c.one_hop, c.held}) {
+        if (!text.empty()) fmt::print("{}\n", text);
+    }
     const std::string lacking = incompleteness(c.runs);
     if (!lacking.empty()) fmt::print("{}\n", lacking);
     for (const ComparedModel& m : c.models) {
@@ -248,7 +251,7 @@ void write_comparison(const std::string& file, const Comparison& comparison, con
     constexpr double pixels = 1000;  // wide, as in print
     ChartLayout layout;
     layout.scale = pixels / layout.picture_width();
-    const Chart chart = protocol_chart(store, comparison.held);
+    const Chart chart = protocol_chart(store, {comparison.one_hop, comparison.held});
     write_picture(file, chart_svg({&chart, 1}, layout));
 }
 

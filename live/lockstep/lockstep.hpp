@@ -65,6 +65,7 @@ class Lockstep : public Front {
     void tell() override;
     Time limit() const override { return step_end_.value_or(now()); }
     void held(std::chrono::nanoseconds waited) override;
+    bool failed_to_begin() const override { return !has_started_ && !fault_.empty(); }
     bool is_done() const override { return is_over_; }
     bool holds_end() const override { return !is_over_; }
     std::optional<std::uint64_t> new_seed() const override { return new_seed_; }

@@ -59,6 +59,9 @@ struct Comparison {
     /// Text on keys that [study] of the scenario file varies, but that are fixed in this
     /// comparison, with their fixed values; empty: no such keys.
     std::string held = {};
+    /// Text on protocols that send messages of the scenario over one hop only; empty: there are
+    /// none.
+    std::string one_hop = {};
     std::vector<PairedVariance> pairs;
     std::string cost_text = {};  ///< text on how costs were measured and whether they matter
 };

@@ -282,7 +282,7 @@ std::vector<Chart> comparison_charts(const Comparison& comparison) {
     return {values, errors};
 }
 
-Chart protocol_chart(const Store& store, const std::string& held) {
+Chart protocol_chart(const Store& store, std::vector<std::string> remarks) {
     const Answers all = answers(store, {.metrics = {"delivery_ratio", "airtime_per_byte_us"}});
     Chart chart{.kind = ChartKind::scatter,
                 .x_label = "airtime for each byte delivered [us]",
@@ -311,7 +311,8 @@ Chart protocol_chart(const Store& store, const std::string& held) {
     if (!without.empty()) {
         chart.note += fmt::format("; nothing delivered by: {}", fmt::join(without, ", "));
     }
-    for (const std::string& text : {held, coverage_text(all)}) {
+    remarks.push_back(coverage_text(all));
+    for (const std::string& text : remarks) {
         if (!text.empty()) chart.note += "; " + text;
     }
     return chart;

@@ -62,8 +62,9 @@ std::vector<Chart> comparison_charts(const Comparison& comparison);
 
 /// Chart of routing protocols: delivery ratio of each protocol over its airtime for each delivered
 /// byte, with the intervals of both quantities. Upper left is better than lower right.
-/// @param store  store of a study that varies only routing.protocol
-/// @param held   text on other varied keys and their fixed values, for the note of the chart
-Chart protocol_chart(const Store& store, const std::string& held);
+/// @param store    store of a study that varies only routing.protocol
+/// @param remarks  texts for the note of the chart, such as Comparison::held; empty ones are left
+///                 out
+Chart protocol_chart(const Store& store, std::vector<std::string> remarks);
 
 }  // namespace rovernet

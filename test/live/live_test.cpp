@@ -188,6 +188,18 @@ TEST_CASE(
     CHECK(failed.err.find("exit 7 ended with exit code 7") != std::string::npos);
 }
 
+TEST_CASE("live: if a program ends before its hello, the results of an earlier run remain") {
+    const TemporaryFolder folder;
+    const std::string file = folder.write("s.toml", live_row), out = folder.path("out");
+    CHECK(command(folder, {"run", file, "--out", out}).exit == 0);
+    const std::string summary = content(out + "/summary.json");
+    const Ended failed = command(folder, {"live", file, "--out", out, "--controller", "exit 7"});
+    CHECK(failed.exit == 1);
+    CHECK(failed.err.find("exit 7 ended with exit code 7") != std::string::npos);
+    CHECK(content(out + "/summary.json") == summary);
+    CHECK_FALSE(std::filesystem::exists(out + "/inputs.jsonl"));
+}
+
 TEST_CASE(
     "live: a client may send lines before it gets answers, and gets all answers after it stops "
     "sending") {

@@ -113,9 +113,11 @@ TEST_CASE(
     CHECK(text.out.starts_with("protocol  delivery_ratio"));
     CHECK(text.out.find("\nprotocol  hops_mean") != std::string::npos);
     CHECK(text.out.find("flood is 0.5 below aodv in each of 3 replications") != std::string::npos);
+    CHECK(text.out.find("\nover one hop only: unicasts under flood\n") != std::string::npos);
     const std::string svg = content(folder.path("p.svg"));
     CHECK(svg.find("airtime for each byte delivered [us]") != std::string::npos);
     CHECK(svg.find("width=\"1000\"") != std::string::npos);
+    CHECK(svg.find("over one hop only") != std::string::npos);
 
     words = protocols(file, "aodv,flood");
     words.push_back("--csv");

@@ -238,7 +238,7 @@ TEST_CASE(
     const Store store = made_of_protocols(folder.path("s.db"), {"flood", "aodv", "mute"},
                                           {{0.2, 0.4, 0.3}, {0.9, 0.8, 0.7}, {0, 0, 0}},
                                           {{500, 400, 450}, {100, 110, 90}, {{}, {}, {}}});
-    const Chart chart = protocol_chart(store, "fixed as in the file: radio.power = 15 dBm");
+    const Chart chart = protocol_chart(store, {"fixed as in the file: radio.power = 15 dBm"});
     REQUIRE(chart.series.size() == 1);
     const auto& marks = chart.series[0].points;
     REQUIRE(marks.size() == 2);
