@@ -38,8 +38,10 @@ class IdleKeys {
     /// `of`, or only the command line sets it.
     bool is_for_other(std::string_view table, const Entry& key, std::string_view of) const;
     void note(const Entry& key, const std::string& why) {
-        add_notice(scenario_.notices, fmt::format("{}: the key \"{}\" has no effect{}",
-                                                  key.key_where.text(), key.key, why));
+        const std::string place = key.key_where.text();
+        if (place.empty()) return;  // `advise` sets whole tables: nobody wrote this key
+        add_notice(scenario_.notices,
+                   fmt::format("{}: the key \"{}\" has no effect{}", place, key.key, why));
     }
 
     template <class Choice>

@@ -3,12 +3,12 @@
 
 #include "models/phy/phy.hpp"
 #include "models/propagation/disc.hpp"
-#include "scenario/affected.hpp"
 #include "scenario/document/choice.hpp"
 #include "scenario/document/located.hpp"
 #include "scenario/idle_keys.hpp"
 #include "scenario/memory.hpp"
 #include "scenario/names.hpp"
+#include "scenario/robot_list.hpp"
 #include "scenario/tables/flow_names.hpp"
 #include "scenario/tables/read_model.hpp"
 #include "scenario/tables/reader.hpp"
@@ -21,7 +21,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <set>
 #include <utility>
 
 namespace rovernet {
@@ -88,37 +87,18 @@ void check_sinr(const Scenario& scenario) {
     }
 }
 
-template <class T>
-std::vector<T> read_list(TableReader& document, std::string_view key, auto&& read_item) {
-    std::vector<T> list;
-    const Value* value = document.take(key);
-    if (!value) return list;
-    if (!value->array()) {
-        const char* why = value->where.is_option
-                              ? " in the scenario file, because an option cannot add a table"
-                              : "";
-        throw InputError(
-            value->where,
-            fmt::format("{}: found {}; expected a list of tables, each with the header [[{}]]{}",
-                        key, value->description(), key, why));
-    }
-    for (const auto& item : *value->array()) list.push_back(read_item(item));
-    return list;
-}
-
 /// Reads [[traffic]]: flows, and files of flows; a lone [traffic] may be a file, too.
 void read_all_traffic(TableReader& document, Scenario& out) {
     const auto is_file = [](const Value& v) { return v.table() && v.table()->find("file"); };
     const Value* value = document.take("traffic");
     if (value && is_file(*value)) return read_flows(*value, out);
-    read_list<int>(document, "traffic", [&](const Value& item) {
+    for (const Value& item : document.take_list("traffic")) {
         if (is_file(item)) {
             read_flows(item, out);
         } else {
             out.traffic.push_back(read_traffic(item));
         }
-        return 0;
-    });
+    }
 }
 
 template <Described T>
@@ -254,76 +234,6 @@ void note_decay(Scenario& out) {
     }
 }
 
-/// Checks that there is a robot, or at least a map if a report of the scene needs no robots.
-void check_robots(TableReader& document, const Scenario& scenario, bool needs_robots) {
-    if (!scenario.robots.empty() || !scenario.movement.robots.empty()) return;
-    const bool has_map = scenario.scene.has_maps() || scenario.scene.world;
-    if (!needs_robots && has_map) return;
-    if (!scenario.scene.world) {
-        document.missing("robot", needs_robots ? "[[robot]] with a name and a place"
-                                               : "[[robot]] with a name and a place, or [scene] "
-                                                 "with a map");
-    }
-    throw InputError(
-        scenario.scene.map_where.line > 0 ? scenario.scene.map_where : Location{scenario.file},
-        "found no robot in this world; expected a model of type position, or a scenario with "
-        "[[robot]] that names the world: [scene] world = \"...\"");
-}
-
-/// Robots of a table that the movement file places and moves: their number, and the last name.
-struct MovedByFile {
-    int robots = 0;
-    std::string name = {};
-};
-MovedByFile moved_by_file(const RobotTable& robot, const std::set<std::string_view>& in_file) {
-    MovedByFile moved;
-    if (in_file.empty()) return moved;
-    for (int i = 0; i < robot.count.value_or(1); ++i) {
-        std::string name = robot.name_of(i);
-        if (in_file.contains(name)) moved = {moved.robots + 1, std::move(name)};
-    }
-    return moved;
-}
-
-/// Adds a notice about places and movements that have no effect beside those of the movement file.
-void note_idle_motion(const Value& robots, const std::set<std::string_view>& in_file,
-                      Scenario& out) {
-    Affected idle;
-    for (std::size_t i = 0; i < out.robots.size(); ++i) {
-        const RobotTable& robot = out.robots[i];
-        const MovedByFile moved = moved_by_file(robot, in_file);
-        if (moved.robots == 0) continue;
-        const bool stands = std::holds_alternative<FixedTable>(robot.move.model);
-        for (const char* key : {"at", "place", "move"}) {
-            const Value* given = (*robots.array())[i].table()->find(key);
-            if (!given || (stands && key == std::string_view("move"))) continue;
-            // A world has to place all its robots.
-            if (out.scene.world && given->where.source != out.file) continue;
-            idle.add([&] {
-                return fmt::format(
-                    "{}: the key \"{}\" has no effect on robot \"{}\": the movement file places "
-                    "and moves this robot",
-                    given->where.text(), key, moved.name);
-            });
-        }
-    }
-    idle.note(out.notices);
-}
-
-/// Reads [[robot]]; robots that the movement file places need no place there.
-void read_robots(TableReader& document, Scenario& out) {
-    std::set<std::string_view> in_file;
-    for (const FileRobot& robot : out.movement.robots) in_file.insert(robot.name);
-    const auto needs_place = [&](const RobotTable& robot) {
-        return moved_by_file(robot, in_file).robots < robot.count.value_or(1);
-    };
-    out.robots = read_list<RobotTable>(
-        document, "robot", [&](const Value& v) { return read_robot(v, out, needs_place); });
-    if (!in_file.empty() && !out.robots.empty()) {
-        note_idle_motion(*document.take("robot"), in_file, out);
-    }
-}
-
 }  // namespace
 
 void read_value(const Value& value, std::string_view key, EifsRule& out) {
@@ -350,9 +260,11 @@ Radio usual_radio(const AccessTable& access) {
     return out;
 }
 
-Scenario read_scenario(const Value& value, const std::string& file, bool needs_robots) try {
+Scenario read_scenario(const Value& value, const std::string& file, bool needs_robots,
+                       const std::vector<std::string>& notices) try {
     Scenario out;
     out.file = file;
+    out.notices = notices;
     TableReader document(value, "the scenario");
     document.expect({"scenario", "scene", "access", "radio", "medium", "propagation", "shadowing",
                      "fading", "reception", "links", "movement", "robot", "routing", "traffic",

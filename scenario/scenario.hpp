@@ -145,8 +145,10 @@ struct Scenario {
 /// @param document  table of tables, as read_toml() returns it
 /// @param file      file name as the user wrote it, for paths in the document and for errors
 /// @param needs_robots  true: a scenario without robots is an error
+/// @param notices   notices so far, such as those of a Stage world
 /// @throws InputError at the first mistake
-Scenario read_scenario(const Value& document, const std::string& file, bool needs_robots = true);
+Scenario read_scenario(const Value& document, const std::string& file, bool needs_robots = true,
+                       const std::vector<std::string>& notices = {});
 
 /// Converts a scenario to a document with every default: the inverse of read_scenario().
 Table to_document(const Scenario& scenario);

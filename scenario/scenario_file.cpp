@@ -123,8 +123,8 @@ void append(Value& scene, std::string_view key, const std::vector<std::string>& 
     scene.table()->set(key, std::move(list));
 }
 
-/// Adds the world options of the command line as keys of [scene].
-void apply_world_options(Table& document, const ScenarioOptions& options, const fs::path& folder) {
+/// Moves the world options of the command line to keys of [scene], if it names a world.
+void apply_world_options(Table& document, ScenarioOptions& options, const fs::path& folder) {
     Value* scene = document.find("scene");
     if (!scene || !scene->table() || !scene->table()->find("world")) return;
     std::vector<std::string> path;
@@ -133,6 +133,7 @@ void apply_world_options(Table& document, const ScenarioOptions& options, const 
     }
     append(*scene, "world_path", path);
     append(*scene, "bitmaps", options.bitmaps);
+    options.world_path.clear(), options.bitmaps.clear();
     if (options.lenient) scene->table()->set("lenient", true);
 }
 
@@ -189,6 +190,13 @@ void add_world(Table& document, const Table& world) {
     document = std::move(all);
 }
 
+/// Whether a setting chooses a Stage world, or how the world is read.
+bool chooses_world(const Entry& setting) {
+    constexpr std::string_view keys[] = {"scene", "scene.world", "scene.world_path",
+                                         "scene.bitmaps", "scene.lenient"};
+    return std::ranges::find(keys, setting.key) != std::end(keys);
+}
+
 /// The document that a file is, or is made into.
 Value document_of(const std::string& path) {
     refuse_other_files(path);
@@ -202,37 +210,57 @@ ScenarioFile::ScenarioFile(const std::string& path, const ScenarioOptions& optio
     : ScenarioFile(document_of(path), path, options) {}
 
 ScenarioFile::ScenarioFile(Value document, const std::string& path, const ScenarioOptions& options)
-    : path_(path), document_(std::move(document)), needs_robots_(options.needs_robots) {
-    if (!document_.table()) {
-        throw InputError(document_.where, fmt::format("found {}; expected a table that contains "
-                                                      "the tables of a scenario, such as [[robot]]",
-                                                      document_.description()));
+    : path_(path), options_(options), without_world_(std::move(document)) {
+    if (!without_world_.table()) {
+        throw InputError(without_world_.where,
+                         fmt::format("found {}; expected a table that contains the tables of a "
+                                     "scenario, such as [[robot]]",
+                                     without_world_.description()));
     }
-    Table& table = *document_.table();
     const fs::path folder = fs::path(path).parent_path();
-    apply_world_options(table, options, folder);
-    const Value* scene = table.find("scene");
+    // Options about the scene decide which world is read. The others may name its robots.
+    std::erase_if(options_.set, [&](const std::string& option) {
+        if (!option.starts_with("scene.")) return false;
+        set_option(without_world_, option, "--set " + option);
+        return true;
+    });
+    apply_world_options(*without_world_.table(), options_, folder);
+    document_ = without_world_;
+    const Value* scene = document_.table()->find("scene");
     if (scene && scene->table() && scene->table()->find("world")) {
         const SceneTable said = read_scene(*scene);
         WorldFile world = located_file(said.map_where, "world", [&] {
             return read_worldfile((folder / *said.world).string(), world_options(said, path));
         });
         notices_ = world.notices;
-        add_world(table, stage_document(world, notices_));
+        add_world(*document_.table(), stage_document(world, notices_));
         world_ = std::make_shared<const WorldFile>(std::move(world));
     }
-    for (const auto& option : options.set) set_option(document_, option, "--set " + option);
+    for (const auto& option : options_.set) set_option(document_, option, "--set " + option);
 }
 
 Scenario ScenarioFile::scenario(const Table& settings) const {
     Value document = document_;
+    if (std::ranges::any_of(settings.entries, chooses_world)) {
+        Value chosen = without_world_;
+        Table others;
+        for (const Entry& entry : settings.entries) {
+            if (chooses_world(entry)) {
+                set_value(chosen, entry.key, entry.value, entry.key_where);
+            } else {
+                others.entries.push_back(entry);
+            }
+        }
+        return ScenarioFile(std::move(chosen), path_, options_).scenario(others);
+    }
     for (const Entry& entry : settings.entries) {
         set_value(document, entry.key, entry.value, entry.key_where);
     }
-    std::vector<std::string> notices = notices_;
-    Scenario scenario = read_scenario(document, path_, needs_robots_);
-    if (world_) scenario.walls = load_walls(scenario.scene, path_, *world_, notices);
-    scenario.notices.insert(scenario.notices.begin(), notices.begin(), notices.end());
+    Scenario scenario = read_scenario(document, path_, options_.needs_robots, notices_);
+    std::vector<std::string> of_walls;
+    if (world_) scenario.walls = load_walls(scenario.scene, path_, *world_, of_walls);
+    const auto first = scenario.notices.begin() + static_cast<std::ptrdiff_t>(notices_.size());
+    scenario.notices.insert(first, of_walls.begin(), of_walls.end());
     return scenario;
 }
 

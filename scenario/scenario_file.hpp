@@ -54,10 +54,11 @@ class ScenarioFile {
     Scenario scenario(const Table& settings = {}) const;
 
   private:
-    // Path of the file as the user typed it, and its document, overridden by the command line.
-    std::string path_;
-    Value document_;
-    bool needs_robots_;
+    std::string path_;  // of the file, as the user typed it
+    // Options of the command line, without --set of keys of [scene]: these are in the documents.
+    ScenarioOptions options_;
+    // Document of the file; and with the robots of the Stage world and all options.
+    Value without_world_, document_;
     // Notices to the user about the Stage world.
     std::vector<std::string> notices_;
     std::shared_ptr<const WorldFile> world_;  // Stage world; null unless [scene] names a world

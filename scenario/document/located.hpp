@@ -34,15 +34,15 @@ auto located(const Location& where, auto&& make) {
 /// Runs make() for a file that the input names. An InputError at a line of that file is not
 /// changed. An InputError about the whole file (a missing file, say) is reported at the line that
 /// names the file, as "KEY: FILE: MESSAGE".
-/// @param where  file position of the name in the input; if `where` has no line, errors of make()
-///               are not changed
+/// @param where  file position of the name in the input, or its option; if `where` is neither,
+///               errors of make() are not changed
 /// @param key    key whose value is the name
 /// @return result of make()
 auto located_file(const Location& where, std::string_view key, auto&& make) {
     try {
         return make();
     } catch (const InputError& error) {
-        if (error.where().line > 0 || where.line == 0) throw;
+        if (error.where().line > 0 || (where.line == 0 && !where.is_option)) throw;
         throw InputError(where, fmt::format("{}: {}", key, error.what()));
     }
 }

@@ -47,6 +47,18 @@ const Value* TableReader::take(std::string_view key) {
     return table_->find(key);
 }
 
+std::span<const Value> TableReader::take_list(std::string_view key) {
+    const Value* value = take(key);
+    if (!value) return {};
+    if (value->array()) return *value->array();
+    const char* why =
+        value->where.is_option ? " in the scenario file, because an option cannot add a table" : "";
+    throw InputError(
+        value->where,
+        fmt::format("{}: found {}; expected a list of tables, each with the header [[{}]]{}", key,
+                    value->description(), key, why));
+}
+
 void TableReader::reject_unknown() const {
     for (const auto& entry : table_->entries) {
         if (is_known(entry.key)) continue;

@@ -6,6 +6,7 @@
 #include "sim/fields.hpp"
 
 #include <initializer_list>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -63,6 +64,9 @@ class TableReader {
     /// Value of `key`, or null if the table lacks the key. reject_unknown() accepts the key from
     /// now on.
     const Value* take(std::string_view key);
+    /// Tables of the list `key`, each with the header [[key]]; empty if the table lacks the key.
+    /// @throws InputError if the value is no list
+    std::span<const Value> take_list(std::string_view key);
     /// Reads the value of `key` if the key is present. @return whether the key is present
     /// @param out    unchanged if the key is missing
     /// @param range  allowed range of the number

@@ -334,8 +334,14 @@ std::string AdviceCandidates::name_of(std::size_t path_loss, std::size_t recepti
 
 std::vector<Vary> AdviceCandidates::vary() const {
     Vary propagation{"propagation", {}, {}}, reception{"reception", {}, {}};
-    for (const CandidateModel& each : path_losses) propagation.values.emplace_back(each.table);
-    for (const CandidateModel& each : receptions) reception.values.emplace_back(each.table);
+    const auto add = [](Vary& vary, const std::vector<CandidateModel>& models) {
+        for (const CandidateModel& each : models) {
+            vary.values.emplace_back(each.table);
+            vary.values.back().where = Location{"candidate " + each.name};
+        }
+    };
+    add(propagation, path_losses);
+    add(reception, receptions);
     return {propagation, reception};
 }
 

@@ -110,6 +110,18 @@ TEST_CASE(
     CHECK(!contains(empty, "the key"));
 }
 
+TEST_CASE("input: the error about a missing file that an option names begins with the option") {
+    const TemporaryFolder folder;
+    const std::string file = folder.write("s.toml", two);
+    for (const std::string option : {"movement.file=none.tcl", "scene.map=none.png",
+                                     "scene.world=none.world", "traffic.file=none.tcl"}) {
+        CAPTURE(option);
+        const Ended ended = command(folder, {"run", file, "--set", option});
+        CHECK(ended.exit == 2);
+        CHECK(ended.err.starts_with("rovernet: --set " + option + ": "));
+    }
+}
+
 TEST_CASE("input: the error for an impossible number in an option states what is expected") {
     const TemporaryFolder folder;
     const std::string file = folder.write("s.toml", two);

@@ -435,6 +435,8 @@ const std::vector<Mistake> mistakes = {
      "6:6",
      {"\"A\"", "inside a wall"}},
     {on_map + "move = { model = \"goal\", to = [\"6 m\", \"2 m\"] }", "7:8", {"no path from"}},
+    {in_file + "name = \"N1\"\n", "4:8", {"robot \"N1\"", "\"at\"", "did you mean \"n1\"?"}},
+    {in_file + "name = \"zebra\"\n", "4:8", {"robot \"zebra\"", "such as \"n0\""}},
     {in_file + "name = \"n1\"\ncount = 2\n", "3:1", {"\"at\" is missing"}},
     {in_file + "name = \"n\"\ncount = 3\n", "3:1", {"\"at\" is missing"}},
     {on_map + "move = { model = \"goal\", to = [\"50 m\", \"2 m\"] }", "7:8", {"off the map"}},

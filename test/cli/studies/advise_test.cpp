@@ -73,6 +73,16 @@ TEST_CASE(
               .exit == 0);
 }
 
+TEST_CASE("advise: notices name the candidate, and none is about a key of another candidate") {
+    const Advised advised;
+    auto words = advised.words({"--set", "routing.protocol=managed"});
+    words[5] = "disc,raytrace_2007";
+    advised.folder.write("talkers.toml", talkers + "[propagation]\nwall_factor = 3\n");
+    const Ended ended = command(advised.folder, words);
+    CHECK(ended.err.find("candidate disc: model: ") != std::string::npos);
+    CHECK(ended.err.find("wall_factor") == std::string::npos);
+}
+
 TEST_CASE("advise: the number of workers does not change the advice") {
     const Advised advised;
     const Json one = json_of(advised.folder, advised.words({"--workers", "1"}));

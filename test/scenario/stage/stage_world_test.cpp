@@ -357,6 +357,52 @@ TEST_CASE("stage world: a world without robots can be loaded as a scene, but not
         InputError);
 }
 
+TEST_CASE("stage world: the error about a world without robots lists what was ignored") {
+    const TemporaryFolder folder;
+    const std::string world = folder.write("p.world", "include \"r.inc\"\nscout ( name \"x\" )\n");
+    CHECK_THROWS_WITH_AS(load_scenario(world, {.lenient = true}),
+                         doctest::Contains("\"r.inc\" is missing, so it is left out"), InputError);
+    CHECK_THROWS_WITH_AS(load_scenario(world, {.lenient = true}),
+                         doctest::Contains("unknown type \"scout\""), InputError);
+}
+
+TEST_CASE("stage world: --set and varied values may choose the world") {
+    const TemporaryFolder folder;
+    folder.write("a.world", "position ( name \"a\" wifi ( ) )\n");
+    folder.write("b.world", "position ( name \"b\" wifi ( ) )\nposition ( name \"c\" )\n");
+    const std::string path = folder.write("s.toml", "[scene]\nworld = \"a.world\"\n");
+    CHECK(load_scenario(path, {}).robots.at(0).name == "a");
+    CHECK(load_scenario(path, {.set = {"scene.world=b.world"}}).robots.at(0).name == "b");
+
+    // Options about robots hold for the robots of the chosen world.
+    const ScenarioFile file(path, {.set = {"robot.0.radius=0.3"}});
+    Table chosen;
+    chosen.set("scene.world", "b.world");
+    chosen.set("robot.c.radius", "0.4 m");
+    const Scenario b = file.scenario(chosen);
+    REQUIRE(b.robots.size() == 2);
+    CHECK(b.robots[0].name == "b");
+    CHECK(b.robots[0].radius.value == 0.3);
+    CHECK(b.robots[1].radius.value == 0.4);
+    CHECK(file.scenario().robots.size() == 1);
+}
+
+TEST_CASE("stage world: a [[robot]] without a place must be a robot of the world") {
+    const TemporaryFolder folder;
+    folder.write("a.world", "position ( name \"base\" wifi ( ) )\n");
+    const auto load = [&](const std::string& name) {
+        return load_scenario(folder.write("a.toml",
+                                          "[scene]\nworld = \"a.world\"\n[[robot]]\n"
+                                          "name = \"" +
+                                              name + "\"\nradius = \"0.2 m\"\n"),
+                             {});
+    };
+    CHECK(load("base").robots.at(0).radius.value == 0.2);
+    CHECK_THROWS_WITH_AS(load("bsae"), doctest::Contains("a.toml:4:8: name: no world and no"),
+                         InputError);
+    CHECK_THROWS_WITH_AS(load("bsae"), doctest::Contains("did you mean \"base\"?"), InputError);
+}
+
 TEST_CASE("stage world: a model whose macro is missing becomes a robot if the model has a wifi") {
     const Read world = read("pioneer ( name \"a\" cargo ( wifi ( model \"friis\" ) ) )\n");
     REQUIRE(world.robots().size() == 1);
