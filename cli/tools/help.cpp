@@ -12,6 +12,7 @@
 #include <iterator>
 #include <sstream>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -96,6 +97,17 @@ std::string in_small_letters(std::string text) {
     return text;
 }
 
+/// Word without an ending that a page may lack: "flooding" also finds "flood".
+std::string stem_of(std::string word) {
+    constexpr std::size_t shortest = 4;  // letters of a stem
+    for (const std::string_view end : {"ing", "s"}) {
+        if (!word.ends_with(end) || word.size() < end.size() + shortest) continue;
+        word.erase(word.size() - end.size());
+        break;
+    }
+    return word;
+}
+
 /// How often a word of the text begins with `word`; both are in small letters.
 std::size_t count_of(const std::string& word, const std::string& text) {
     std::size_t count = 0;
@@ -118,7 +130,7 @@ std::vector<HelpPage> pages_with(const std::vector<std::string>& words,
                           text = in_small_letters(text_of(page));
         Rank rank;
         for (const std::string& each : words) {
-            const std::string word = in_small_letters(each);
+            const std::string word = stem_of(in_small_letters(each));
             const std::size_t here = count_of(word, text);
             rank.words += (here > 0 ? 1u : 0u) + (count_of(word, head) > 0 ? 1u : 0u);
             rank.places += here;

@@ -86,8 +86,8 @@ class Front {
     /// Called repeatedly while the run waits at limit(), and while the front stays after the run.
     /// @param waited  real time since the run has reached the limit
     virtual void held(std::chrono::nanoseconds /*waited*/) {}
-    /// Whether an error ended the run before all clients of its start had connected. Then no results
-    /// are written.
+    /// Whether an error ended the run before all clients of its start had connected. Then no
+    /// results are written.
     virtual bool failed_to_begin() const { return false; }
     /// Whether the clients are done, so that the run ends.
     virtual bool is_done() const { return false; }

@@ -43,6 +43,9 @@ TEST_CASE(
     const Ended lost = command(folder, {"help", "why are", "messages lost"});
     CHECK(has(lost.out, "Pages with \"why are messages lost\", the best first:\n  traces "));
     CHECK(std::count(lost.out.begin(), lost.out.end(), '\n') == 9);  // six pages
+    CHECK(has(command(folder, {"help", "flooding"}).out, "\n  routing "));
+    CHECK(has(command(folder, {"help", "licence"}).out, "\n  versions "));
+    CHECK(has(command(folder, {"help", "cite"}).out, "\n  versions "));
     const Ended only = command(folder, {"help", "OLSR"});
     CHECK(has(only.out, "  not-there          What is not there\n"));
 }
