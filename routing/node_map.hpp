@@ -26,7 +26,7 @@ class NodeMap {
     /// Adds a value, whose node must not be in the map. @return reference to it, which is valid
     /// until the map changes
     Value& insert(const Value& value) {
-        if (is_full()) values_.reserve(values_.size() + values_.size() / 4 + 4);
+        if (is_full()) values_.reserve(values_.size() + values_.size() / 8 + 4);
         return *values_.insert(values_.begin() + static_cast<std::ptrdiff_t>(place(value.*key)),
                                value);
     }
@@ -52,19 +52,20 @@ class NodeMap {
   private:
     // Index of the first value whose node is not below `node`.
     std::size_t place(NodeId node) {
-        std::uint16_t& last = last_indices_[node.value % last_indices_.size()];
+        std::uint8_t& last = last_indices_[node.value % last_indices_.size()];
         if (last < values_.size() && values_[last].*key == node) return last;
         const auto found =
             std::lower_bound(values_.begin(), values_.end(), node,
                              [](const Value& each, NodeId wanted) { return each.*key < wanted; });
         const auto i = static_cast<std::size_t>(found - values_.begin());
-        last = static_cast<std::uint16_t>(i);
+        last = static_cast<std::uint8_t>(i);
         return i;
     }
 
     std::vector<Value> values_;
-    // Index at which the last node of each remainder was found. It may have changed since.
-    std::array<std::uint16_t, 64> last_indices_{};
+    // Index at which the last node of each remainder was found, modulo 256. It may have changed
+    // since.
+    std::array<std::uint8_t, 64> last_indices_{};
 };
 
 }  // namespace rovernet
