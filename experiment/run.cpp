@@ -9,6 +9,7 @@
 #include "experiment/trace_files.hpp"
 #include "experiment/version.hpp"
 #include "experiment/warmup.hpp"
+#include "files/kept_inputs.hpp"
 #include "files/part_file.hpp"
 #include "mobility/kept_planners.hpp"
 #include "scenario/document/json.hpp"
@@ -93,6 +94,8 @@ ScenarioRun::~ScenarioRun() = default;
 void ScenarioRun::write_to(const std::string& folder) {
     result_.folder = folder;
     make_folder(folder);
+    if (const std::string document = folder + "/scenario.toml"; is_kept_input(document))
+        check_output(document, to_toml(document_in(folder, scenario_)));
     traces_ = trace_files(scenario_, folder);
     for (const TraceFile& trace : traces_) session_->network().add_sink(trace.sink);
     if (!traces_.empty()) result_.trace = traces_.front().path;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "files/input_file.hpp"
 
+#include "files/kept_inputs.hpp"
 #include "sim/error.hpp"
 
 #include <fmt/format.h>
@@ -93,6 +94,7 @@ InputFile::InputFile(const std::string& path) : path_(path) {
         throw;
     }
     fcntl(file_, F_SETFL, fcntl(file_, F_GETFL) & ~O_NONBLOCK);
+    note_input(path);
 }
 
 InputFile::~InputFile() {

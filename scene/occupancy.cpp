@@ -2,6 +2,7 @@
 #include "scene/occupancy.hpp"
 
 #include "files/input_file.hpp"
+#include "files/kept_inputs.hpp"
 #include "scene/images/image.hpp"
 #include "sim/error.hpp"
 
@@ -113,6 +114,7 @@ class MapFile {
         if (!file)
             fail(YAML::Mark::null_mark(),
                  "cannot be opened; expected a readable file; check the permissions of the file");
+        note_input(path_);
         return {std::istreambuf_iterator<char>(file), {}};
     }
 

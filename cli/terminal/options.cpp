@@ -4,6 +4,7 @@
 #include "cli/terminal/manual.hpp"
 #include "cli/terminal/stop.hpp"
 #include "experiment/version.hpp"
+#include "files/kept_inputs.hpp"
 
 #include <fmt/format.h>
 
@@ -72,6 +73,7 @@ void print_man_page(const ManualArguments& a) { fmt::print("{}", man_page(a.prog
 
 int run_program(int argc, char** argv, const std::function<void(Command program)>& declare) {
     end_on_signals();
+    keep_inputs();
     std::signal(SIGPIPE, SIG_IGN);
     return run_command_line(
         argc, argv, "rovernet",

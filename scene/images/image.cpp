@@ -2,6 +2,7 @@
 #include "scene/images/image.hpp"
 
 #include "files/input_file.hpp"
+#include "files/kept_inputs.hpp"
 #include "scene/images/image_reader.hpp"
 #include "sim/error.hpp"
 
@@ -42,6 +43,7 @@ File open(const std::string& path) {
     if (!file)
         image_error(
             path, "cannot be opened; expected a readable image; check the permissions of the file");
+    note_input(path);
     return file;
 }
 

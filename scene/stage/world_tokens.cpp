@@ -2,6 +2,7 @@
 #include "scene/stage/world_tokens.hpp"
 
 #include "files/input_file.hpp"
+#include "files/kept_inputs.hpp"
 #include "files/text_source.hpp"
 #include "scene/stage/world_scanner.hpp"
 #include "scene/stage/world_search.hpp"
@@ -68,6 +69,7 @@ std::string Loader::text_of(const std::string& path, const Location& where) {
         throw InputError(
             where, "cannot be opened; expected a readable file; check the permissions of the file");
     }
+    note_input(path);
     std::error_code ignored;
     const std::uintmax_t size = std::filesystem::file_size(path, ignored);
     if (size > most_bytes_a_file || (bytes_ += size) > most_bytes) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "traces/recorded/mcap_reader.hpp"
 
+#include "files/kept_inputs.hpp"
 #include "files/text_source.hpp"
 #include "sim/error.hpp"
 #include "traces/recorded/bytes.hpp"
@@ -41,6 +42,7 @@ std::string_view mapped(const std::string& path) {
     close(file);
     errno = error;
     if (!is_there || bytes == MAP_FAILED) fail();
+    note_input(path);
     return bytes ? std::string_view(static_cast<const char*>(bytes), size) : std::string_view();
 }
 

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <string_view>
+
+// Input files of a command, which no output of the command replaces.
+
+namespace rovernet {
+
+/// From now on, note_input() notes files, and a PartFile refuses to replace a noted file by
+/// different contents. A command calls it once, at its start. Without the call, files may be
+/// replaced: a program may read the results of a run, and repeat the run.
+void keep_inputs();
+
+/// Notes a file that is read as an input.
+void note_input(const std::string& path);
+
+/// Whether the path leads to a noted file, also by another name.
+bool is_kept_input(const std::string& path);
+
+/// Checks before a long run that its output may be written: that it does not replace a noted file
+/// by different contents. @throws RunError
+void check_output(const std::string& path, std::string_view contents);
+
+}  // namespace rovernet
