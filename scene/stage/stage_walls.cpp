@@ -85,6 +85,33 @@ std::string color_of(const WorldEntity& entity) {
     return name;
 }
 
+/// Adds the names of all bitmaps of an entity: as written, and without their folders.
+void add_bitmap_names(const WorldEntity& entity, std::vector<std::string>& names) {
+    const WorldProperty* bitmap = entity.find("bitmap");
+    if (bitmap && !bitmap->text().empty()) {
+        const std::filesystem::path written(bitmap->text());
+        names.push_back(written.filename().string());
+        if (written.has_parent_path()) names.push_back(written.string());
+    }
+    for (const WorldEntity& child : entity.children) add_bitmap_names(child, names);
+}
+
+/// @throws InputError for a replacement OLD=NEW whose OLD is no bitmap of the world
+void check_replaced(const WorldFile& world, const WorldOptions& options) {
+    if (options.bitmaps.empty()) return;
+    std::vector<std::string> names;
+    add_bitmap_names(world.root, names);
+    for (const auto& [old_name, new_name] : options.bitmaps) {
+        if (std::ranges::find(names, old_name) != names.end()) continue;
+        const std::string near = did_you_mean(old_name, names);
+        throw InputError(
+            {world.path},
+            fmt::format("bitmap {}={}: the world names no bitmap \"{}\"; expected {}{}{}", old_name,
+                        new_name, old_name, names.empty() ? "no replacement" : "one of its bitmaps",
+                        near.empty() ? "" : "; ", near));
+    }
+}
+
 class Builder {
   public:
     Builder(const WorldFile& world, const WorldOptions& options)
@@ -303,6 +330,7 @@ void Builder::spend(double work, const Location& where) {
 }  // namespace
 
 StageWalls stage_walls(const WorldFile& world, const WorldOptions& options) {
+    check_replaced(world, options);
     return Builder(world, options).build(world.root);
 }
 
