@@ -14,6 +14,28 @@
 namespace rovernet {
 namespace {
 
+/// Why a copy was dropped, in words.
+std::string_view words_of(DropReason reason) {
+    switch (reason) {
+        case DropReason::off:
+        case DropReason::end: return "it was switched off";
+        case DropReason::queue_full: return "its queue was full";
+        case DropReason::retries: return "no acknowledgement came";
+        case DropReason::unheard: return "the next hop was out of range";
+        case DropReason::cut_off:
+        case DropReason::held: return "the run ended";
+        case DropReason::no_route: return "it had no route";
+        case DropReason::loop: return "the message had been there before";
+        case DropReason::broken: return "the route broke";
+        case DropReason::buffer_full: return "its buffer of messages without a route was full";
+        case DropReason::timeout: return "the message had waited too long for a route";
+        case DropReason::salvaged: return "the message had been salvaged too often";
+        case DropReason::unresolved: return "the address of the next hop was not found";
+        case DropReason::own: break;
+    }
+    return "its routing protocol did so";
+}
+
 Outcome outcome_of(Fate fate) {
     switch (fate) {
         case Fate::waiting:
@@ -59,6 +81,7 @@ class Account {
     void take(const Record& record);
     void begin(const RecordedFrame& frame);
     void end(const Received& received);
+    void drop(NodeId at, Time time, const LossReason& loss, std::string_view why);
     void meet(Open& open, const RecordedFrame& other) const;
     std::optional<Outcome> outcome_at_begin(const RecordedFrame& frame, Db margin) const;
 
@@ -86,11 +109,21 @@ void Account::take(const Record& record) {
         if (!is_it(sent->message)) return;
         message_.sent = sent->time;
         message_.is_origin = sent->node == robot_;
+        message_.to = trace_.context().messages[sent->message].to;
     } else if (std::holds_alternative<AirSent>(record)) {
         if (!air_.frames().empty()) begin(air_.frames().back());
     } else if (const auto* received = std::get_if<Received>(&record)) {
         if (is_it(received->frame.message)) end(*received);
+    } else if (const auto* dropped = std::get_if<Dropped>(&record)) {
+        if (is_it(dropped->frame.message) && !dropped->protocol_decides)
+            drop(dropped->node, dropped->time, dropped->loss(), words_of(dropped->reason));
     }
+}
+
+/// Notes that a copy of a unicast was dropped.
+void Account::drop(NodeId at, Time time, const LossReason& loss, std::string_view why) {
+    if (message_.to == everyone) return;
+    message_.dropped = {at, time, std::string(loss.code), why};
 }
 
 /// Handles a frame that starts now: a frame of the message, or one that overlaps such a frame.
@@ -102,6 +135,7 @@ void Account::begin(const RecordedFrame& frame) {
     }
     const Arrival arrival = air_.arrival(frame, robot_);
     FrameAtRobot here{.from = frame.air.frame.sender,
+                      .next_hop = frame.air.frame.next_hop,
                       .begin = frame.begin,
                       .end = arrival.end,
                       .level = {arrival.level_dbm},
@@ -147,6 +181,8 @@ std::optional<Outcome> Account::outcome_at_begin(const RecordedFrame& frame, Db 
 
 void Account::end(const Received& received) {
     for (const Reception& reception : received.receptions) {
+        if (reception.fate == Fate::ttl && reception.node != message_.to)
+            drop(reception.node, reception.time, reason_of(Fate::ttl), "its TTL was used up");
         if (reception.node != robot_) continue;
         const AirFrame air{.frame = received.frame};
         const RecordedFrame* frame = air_.frame_of(air, uid_, reception);
@@ -190,167 +226,6 @@ MessageAtRobot message_at_robot(const std::string& path, const LoadedRun& run, s
                                 NodeId robot, const RecordedIndex* index) {
     RecordedReader trace(path);
     return read_account({trace, path, run, uid, robot}, index);
-}
-
-namespace {
-
-std::string counted(std::size_t count, std::string_view what) {
-    return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
-}
-
-std::string walls_in_words(const MessageAtRobot& message, const FrameAtRobot& frame) {
-    if (!message.has_walls || !message.tells_walls) return "";
-    if (frame.walls == 0) return ", with no wall between";
-    return ", through " + counted(frame.walls, "wall");
-}
-
-using FrameList = std::vector<const FrameAtRobot*>;
-
-FrameList with_outcome(const MessageAtRobot& message, std::initializer_list<Outcome> outcomes) {
-    FrameList found;
-    for (const FrameAtRobot& frame : message.frames) {
-        const bool is_one =
-            std::find(outcomes.begin(), outcomes.end(), frame.outcome) != outcomes.end();
-        if (is_one) found.push_back(&frame);
-    }
-    return found;
-}
-
-std::string received_in_words(const MessageAtRobot& message, const FrameAtRobot& first) {
-    const std::string how =
-        first.range
-            ? fmt::format("came over {:.6g} m, within the sender's range of {:.6g} m",
-                          first.distance_m, first.range->value)
-            : fmt::format("came at {:.2f} dBm, {:.1f} dB above the sensitivity of the receiver",
-                          first.level.value, first.margin.value);
-    return fmt::format(
-        "{} received the message from {}, {:.3f} ms after the message was sent: the frame {}{}.",
-        message.robot, message.names[first.from.index()], seconds(first.end - message.sent) * 1e3,
-        how, walls_in_words(message, first));
-}
-
-std::string weak_in_words(const MessageAtRobot& message, const FrameList& weak) {
-    // The strongest frame; without levels, the frame that came nearest to its range.
-    const auto margin = [](const FrameAtRobot& frame) {
-        return frame.range ? frame.range->value - frame.distance_m : frame.margin.value;
-    };
-    const FrameAtRobot& best =
-        **std::max_element(weak.begin(), weak.end(),
-                           [&](const auto* a, const auto* b) { return margin(*a) < margin(*b); });
-    const bool is_one = weak.size() == 1;
-    const std::size_t off = with_outcome(message, {Outcome::off}).size();
-    return fmt::format(
-        "{} was never in range: {} {}{}{}.", message.robot,
-        is_one
-            ? "the only frame"
-            : fmt::format("the {} of {} frames", best.range ? "nearest" : "strongest", weak.size()),
-        best.range ? fmt::format("came from {:.6g} m, beyond the sender's range of {:.6g} m",
-                                 best.distance_m, best.range->value)
-                   : fmt::format("came {:.1f} dB below the sensitivity of the receiver",
-                                 -best.margin.value),
-        walls_in_words(message, best),
-        off > 0 ? fmt::format("; {} of the other frames came while the robot was off", off) : "");
-}
-
-std::string lost_in_words(const MessageAtRobot& message, const FrameList& lost) {
-    constexpr std::pair<Outcome, std::string_view> causes[] = {
-        {Outcome::collided, "while other frames were on air"},
-        {Outcome::busy, "while the robot itself was sending"},
-        {Outcome::garbled, "because of bit errors"},
-        {Outcome::not_told,
-         "for an unknown reason, because the end of the frame is not in the trace"}};
-    std::string list;
-    for (const auto& [outcome, words] : causes) {
-        const std::size_t count = with_outcome(message, {outcome}).size();
-        if (count == 0) continue;
-        list += list.empty() ? ": " : ", ";
-        list += lost.size() == 1 ? std::string(words) : fmt::format("{} {}", count, words);
-    }
-    return fmt::format("{} was in range of {} of {}, but lost {}{}.", message.robot, lost.size(),
-                       counted(message.frames.size(), "frame"), lost.size() == 1 ? "it" : "them",
-                       list);
-}
-
-}  // namespace
-
-std::string sentence(const MessageAtRobot& message) {
-    if (message.is_origin) return message.robot + " is the origin of the message.";
-    if (message.frames.empty()) return "No other robot ever sent the message.";
-    const FrameList got = with_outcome(message, {Outcome::received, Outcome::duplicate});
-    if (!got.empty()) return received_in_words(message, *got.front());
-    const FrameList lost = with_outcome(
-        message, {Outcome::collided, Outcome::busy, Outcome::garbled, Outcome::not_told});
-    if (!lost.empty()) return lost_in_words(message, lost);
-    const FrameList weak = with_outcome(message, {Outcome::too_weak});
-    if (!weak.empty()) return weak_in_words(message, weak);
-    const std::string all = counted(message.frames.size(), "frame");
-    if (!with_outcome(message, {Outcome::off}).empty()) {
-        return fmt::format("{} was switched off, and could receive none of {}.", message.robot,
-                           all);
-    }
-    if (!with_outcome(message, {Outcome::other_network}).empty()) {
-        return fmt::format(
-            "{} is in a different network than the senders of the message, and could receive none "
-            "of {}.",
-            message.robot, all);
-    }
-    return fmt::format("{} {} sent, but to a robot other than {}.", all,
-                       message.frames.size() == 1 ? "was" : "were", message.robot);
-}
-
-std::string outcome_text(const FrameAtRobot& frame) {
-    const bool is_far = frame.outcome == Outcome::too_weak && frame.range;
-    return is_far ? "too far" : std::string(name_of(frame.outcome));
-}
-
-namespace {
-
-std::string in_lower_case(std::string_view text) {
-    std::string lower(text);
-    for (char& c : lower) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    return lower;
-}
-
-Table frame_table(const FrameAtRobot& frame, const MessageAtRobot& message) {
-    Array others;
-    for (const OverlappingFrame& other : frame.others) {
-        const std::string& from = message.names[other.from.index()];
-        Table table;
-        table.set("from", from);
-        table.set("kind", in_lower_case(other.kind));
-        const bool has_level = other.has_level && from != message.robot;
-        table.set("level_dbm", has_level ? Value(other.level.value) : Value());
-        others.emplace_back(std::move(table));
-    }
-    Table table;
-    table.set("from", message.names[frame.from.index()]);
-    table.set("after_s", seconds(frame.begin - message.sent));
-    table.set("level_dbm", frame.range ? Value() : Value(frame.level.value));
-    table.set("margin_db", frame.range ? Value() : Value(frame.margin.value));
-    if (frame.range) {
-        table.set("distance_m", frame.distance_m);
-        table.set("range_m", frame.range->value);
-    }
-    if (message.tells_walls) {
-        table.set("walls", static_cast<std::uint64_t>(frame.walls));
-        table.set("wall_m", frame.wall_m);
-    }
-    table.set("outcome", outcome_text(frame));
-    table.set("also_on_air", std::move(others));
-    return table;
-}
-
-}  // namespace
-
-Table document_of(const MessageAtRobot& message) {
-    Array frames;
-    for (const FrameAtRobot& frame : message.frames)
-        frames.emplace_back(frame_table(frame, message));
-    Table table;
-    table.set("robot", message.robot);
-    table.set("frames", std::move(frames));
-    table.set("answer", sentence(message));
-    return table;
 }
 
 }  // namespace rovernet

@@ -55,10 +55,11 @@ struct OverlappingFrame {
 /// Frame of a message, as it arrived at one robot.
 struct FrameAtRobot {
     NodeId from;
-    Time begin;  ///< start of the frame at the sender
-    Time end;    ///< end of the frame at the robot
-    Dbm level;   ///< received level at the robot [dBm], with shadowing and fading
-    Db margin;   ///< received level minus the robot's sensitivity [dB]
+    NodeId next_hop = everyone;  ///< robot to which the frame was sent
+    Time begin;                  ///< start of the frame at the sender
+    Time end;                    ///< end of the frame at the robot
+    Dbm level;                   ///< received level at the robot [dBm], with shadowing and fading
+    Db margin;                   ///< received level minus the robot's sensitivity [dB]
     std::size_t walls = 0;
     double wall_m = 0;  ///< length of the direct path inside walls [m]
     double distance_m = 0;
@@ -69,6 +70,14 @@ struct FrameAtRobot {
     std::vector<OverlappingFrame> others;  ///< overlapping frames at the robot, strongest first
 };
 
+/// Drop of a copy of a message at a robot, outside a reception at the examined robot.
+struct DroppedCopy {
+    NodeId robot;
+    Time time;
+    std::string code;      ///< code of the reason, as in traces: "NRTE"
+    std::string_view why;  ///< reason in words: "it had no route"
+};
+
 /// All frames of a message that other robots sent, as they arrived at one robot, in the order of
 /// their starts.
 struct MessageAtRobot {
@@ -77,6 +86,10 @@ struct MessageAtRobot {
     bool has_walls = false;   ///< whether the scene has walls
     bool tells_walls = true;  ///< false: the sentence and the document leave out the walls
     Time sent;                ///< time when the message was sent
+    NodeId to = everyone;     ///< destination of the message
+    /// Last copy of a unicast that its routing protocol or its access model dropped; none: the
+    /// message is a broadcast, or no copy was dropped.
+    std::optional<DroppedCopy> dropped = {};
     std::vector<FrameAtRobot> frames;
     std::vector<std::string> names;   ///< names of robots, by NodeId
     std::vector<std::string> damage;  ///< broken or missing parts of the trace, as sentences

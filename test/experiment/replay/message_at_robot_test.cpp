@@ -153,7 +153,7 @@ TEST_CASE(
                   "[[robot]]\nname = \"D\"\nat = [\"5000 m\", \"0 m\"]\n");
     CHECK(run.look(0, 1).frames.at(0).outcome == Outcome::received);
     CHECK(run.look(0, 2).frames.at(0).outcome == Outcome::for_another);
-    CHECK(run.says(0, 2) == "1 frame was sent, but to a robot other than C.");
+    CHECK(run.says(0, 2) == "C was not on the way of the message, which is for B.");
     const MessageAtRobot far = run.look(1, 3);
     CHECK(far.frames.size() == 7);  // the attempts at a short frame
     CHECK(run.says(1, 3).starts_with("D was never in range: the strongest of 7 frames"));
@@ -234,6 +234,35 @@ every = "25 ms"
     }
     CHECK(overlaps > 100);
     CHECK(read / (messages / step) < records / 10);
+}
+
+TEST_CASE("message at a robot: a routed unicast that was dropped on its way names where and why") {
+    const TempFolder folder;
+    const auto line_of_three = [&](const std::string& keys, const std::string& of_c) {
+        const std::string file = folder / "routed.toml";
+        write_file(file,
+                   "[propagation]\nmodel = \"disc\"\nrange = \"250 m\"\n[access]\nmodel = "
+                   "\"csma\"\n[routing]\nprotocol = \"aodv\"\n" +
+                       keys +
+                       "[[robot]]\nname = \"A\"\nat = [\"0 m\", \"0 m\"]\n"
+                       "[[robot]]\nname = \"B\"\nat = [\"200 m\", \"0 m\"]\n"
+                       "[[robot]]\nname = \"C\"\nat = [\"400 m\", \"0 m\"]\n" +
+                       of_c +
+                       "[[traffic]]\nkind = \"unicast\"\nfrom = \"A\"\nto = \"C\"\n"
+                       "size = \"64 B\"\nstart = \"1 s\"\nevery = \"30 s\"\n");
+        return Run(file);
+    };
+    const Run alone = line_of_three("", "off = [\"0.5 s\"]\n");
+    const std::string no_route = alone.says(0, 2);
+    CHECK(
+        no_route.starts_with("No robot sent the message to C: A dropped it, because it had no "
+                             "route (NRTE), "));
+    CHECK(alone.says(0, 1) == "B was not on the way of the message, which is for C.");
+    CHECK(alone.says(0, 0) == "A is the origin of the message.");
+    const Run short_lived = line_of_three("ttl = 1\n", "");
+    CHECK(short_lived.says(0, 2).starts_with(
+        "No robot sent the message to C: B dropped it, because its TTL was used up (TTL), "));
+    CHECK(line_of_three("", "").says(0, 2).starts_with("C received the message from B, "));
 }
 
 TEST_CASE(
