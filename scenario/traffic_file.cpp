@@ -278,7 +278,7 @@ void TrafficReader::tell(App& app) {
         app.rate = rate(value);
         app.interval.reset();
     } else if (key.text == "maxpkts_") {
-        app.most = amount(value, 0, "a number of packets from 0 to 1e9");
+        app.most = std::max(1.0, amount(value, -1, "a number of packets from -1 to 1e9"));
     } else if (key.text == "random_") {
         random_ += amount(value, 0, "0 or 1") != 0;
     } else {
@@ -290,7 +290,7 @@ void TrafficReader::add_flow(const App& app, TrafficFile& file) {
     const auto fault = [&](std::string_view what) {
         throw InputError(app.where, fmt::format("this application {}", what));
     };
-    if (!app.start || app.most < 1) return;
+    if (!app.start) return;
     const auto from = agents_.find(app.agent);
     if (from == agents_.end())
         fault("is attached to no agent; expected a command attach-agent for this application");

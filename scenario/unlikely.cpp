@@ -114,6 +114,34 @@ void note_payloads(Scenario& out) {
     sizes.note(out.notices);
 }
 
+/// Notices times after the end of the run: what they announce never happens.
+void note_late(Scenario& out) {
+    const Duration end = out.scenario.duration;
+    Affected late;
+    const auto look = [&](Duration time, const Location& where, std::string_view key,
+                          std::string_view robot) {
+        if (time <= end) return;
+        late.add([&] {
+            return fmt::format(
+                "{}: {}: {:g} s is after the end of the run ({:g} s), so this time of robot \"{}\" "
+                "has no effect",
+                where.text(), key, seconds(time), seconds(end), robot);
+        });
+    };
+    for (const TrafficTable& flow : out.traffic) {
+        if (flow.start) look(*flow.start, flow.from_where, "start", flow.from);
+    }
+    for (const RobotTable& robot : out.robots) {
+        for (const Duration t : robot.off) look(t, robot.off_where, "off", robot.name);
+        for (const Duration t : robot.on) look(t, robot.on_where, "on", robot.name);
+        for (const ReactionTable& reaction : robot.reactions) {
+            if (reaction.trigger == Trigger::on_time)
+                look(reaction.time, reaction.where, "on_time", robot.name);
+        }
+    }
+    late.note(out.notices);
+}
+
 /// Whether the routing protocol gets messages of a flow: the flow starts during the run, and its
 /// messages are not bound to one hop.
 bool is_for_protocol(const Scenario& scenario, const TrafficTable& flow) {
@@ -136,8 +164,12 @@ void note_unicasts(Scenario& out) {
     };
     for (const TrafficTable& traffic : out.traffic) {
         if (!traffic.to || !is_for_protocol(out, traffic)) continue;
+        const bool is_of_file =  // a traffic file, whose flows cannot have the key
+            traffic.to_where.line > 0 && traffic.to_where.source != out.file;
         note(traffic.to_where, *traffic.to,
-             "; write hops = 1 to confirm this, or [routing] protocol = \"aodv\" to find routes");
+             is_of_file ? "; write [routing] protocol = \"aodv\" to find routes"
+                        : "; write hops = 1 to confirm this, or [routing] protocol = \"aodv\" to "
+                          "find routes");
     }
     for (const RobotTable& robot : out.robots) {
         for (const ReactionTable& reaction : robot.reactions) {
@@ -250,6 +282,7 @@ void note_unlikely(Scenario& scenario) {
         }
     }
     note_payloads(scenario);
+    note_late(scenario);
     note_unicasts(scenario);
     note_unforwarded(scenario);
     note_broadcasts(scenario);

@@ -161,7 +161,9 @@ TEST_CASE(
               "of \"A\" go over one hop only; write hops = 1 to confirm this, or [routing] "
               "protocol = \"flood\" to forward broadcasts\n");
         CHECK(all_notices(broadcast + "hops = 1\n" + chosen).empty());
-        CHECK(all_notices(broadcast + "start = \"1 h\"\n" + chosen).empty());  // after the run
+        // No notice about forwarding: no message is sent.
+        CHECK(all_notices(broadcast + "start = \"1 h\"\n" + chosen)
+                  .starts_with("s.toml:8:8: start: 3600 s is after the end of the run"));
         CHECK(has(all_notices("on_time = { time = \"1 s\", send = \"x\" }\n" + chosen),
                   "s.toml:7:11: send: the routing protocol does not forward broadcasts, so "
                   "broadcasts of \"B\" go over one hop only"));

@@ -48,6 +48,18 @@ std::string with(std::string text, const std::string& old, const std::string& no
 
 }  // namespace
 
+TEST_CASE("traffic file: maxpkts_ below 1 sends one packet, as in ns-2.35") {
+    const TemporaryFolder folder;
+    for (const auto& [most, packets] : {std::pair{"-1", 1}, {"0", 1}, {"1", 1}, {"2", 2}}) {
+        CAPTURE(most);
+        const std::string text =
+            with(flow(0, 3, 0, "15.2"), "maxpkts_ 10000", std::string("maxpkts_ ") + most);
+        const TrafficFile file = read_traffic_file(folder.write("cbr.tcl", text));
+        REQUIRE(file.flows.size() == 1);
+        CHECK(file.flows[0].count == packets);
+    }
+}
+
 TEST_CASE(
     "traffic file: flows from ns-2's generator cbrgen are read as unicasts with size, interval and "
     "times") {

@@ -70,6 +70,17 @@ TEST_CASE("unlikely input: a usual scenario gives no notice") {
     CHECK(notices_of("[radio]\nfrequency = \"868 MHz\"\n" + robot_a).empty());
 }
 
+TEST_CASE("unlikely input: a time after the end of the run gives a notice") {
+    const std::string run = "[scenario]\nduration = \"30 s\"\n" + robot_a;
+    const std::string flow = "[[traffic]]\nfrom = \"A\"\npayload = \"x\"\nstart = ";
+    check_notice(run + flow + "\"100 s\"\n",
+                 {"s.toml:7:8: start: 100 s is after the end of the run (30 s)", "robot \"A\""});
+    CHECK(notices_of(run + flow + "\"30 s\"\n").empty());
+    check_notice(run + "off = [\"1 s\", \"31 s\"]\non = [\"2 s\"]\n", {"s.toml:6:7: off: 31 s is"});
+    check_notice(run + "off = [\"1 s\"]\non = [\"40 s\"]\n", {"s.toml:7:6: on: 40 s is"});
+    check_notice(run + "on_time = { time = \"1 min\", send = \"x\" }\n", {"on_time: 60 s is"});
+}
+
 TEST_CASE("unlikely input: a power such as 17 W, where 17 dBm is usual, gives a notice") {
     check_notice("[radio]\npower = \"17 W\"\n" + robot_a,
                  {"s.toml:2:9: power: 17 W are 42.3 dBm", "did you mean \"17 dBm\"?"});
