@@ -125,9 +125,12 @@ std::string ReplayedScenario::find_file(const RecordedRun& run, const std::strin
             fmt::format("the file {}, which this trace contains, is damaged; record the run again",
                         name));
     }
-    const fs::path beside = fs::absolute(trace_).parent_path() / name;
-    std::error_code ignored;
-    if (fs::exists(beside, ignored)) return beside.string();
+    // At its place when the run was recorded, or copied into the folder of the trace.
+    const fs::path home = fs::absolute(trace_).parent_path();
+    for (const fs::path& file : {home / name, home / fs::path(name).filename()}) {
+        std::error_code ignored;
+        if (fs::exists(file, ignored)) return file.string();
+    }
     throw InputError(
         {.source = trace_},
         fmt::format(
@@ -189,14 +192,23 @@ Scenario ReplayedScenario::with(const std::vector<std::string>& set) const {
         // The user gave the assignments by --with, and does not know the temporary folder.
         constexpr std::string_view option = "--set ";
         Location where = error.where();
+        const std::string here = folder_.path() + "/";
+        std::string message = error.message();
+        if (const auto at = message.find(here); at != message.npos) {
+            message.erase(at, here.size());
+            throw InputError({.source = trace_},
+                             fmt::format("a file of the scenario of this trace cannot be read: {}; "
+                                         "if the trace is cut off, record the run again",
+                                         message));
+        }
         if (where.source.starts_with(option)) {
             where.source.replace(0, option.size(), "--with ");
-        } else if (where.source.starts_with(folder_.path() + "/")) {
-            where.source.replace(0, folder_.path().size() + 1, trace_ + ": ");
+        } else if (where.source.starts_with(here)) {
+            where.source.replace(0, here.size(), trace_ + ": ");
         } else {
             throw;
         }
-        throw InputError(where, error.message());
+        throw InputError(where, message);
     }
 }
 

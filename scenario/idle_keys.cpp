@@ -79,7 +79,10 @@ bool IdleKeys::is_for_other(std::string_view table, const Entry& key, std::strin
         return each.path == path || each.path == table;
     });
     const Entry* chosen = given(table, of);
-    return varies || (chosen && chosen->value.where.is_option && !key.value.where.is_option);
+    if (varies || !chosen) return varies;
+    const Location &choice = chosen->value.where, &parameter = key.value.where;
+    const bool is_typed_with_it = parameter.is_option && choice.source.starts_with("--set ");
+    return choice.is_option && !is_typed_with_it;  // --models tries several models
 }
 
 /// "flood, aodv and dsr".

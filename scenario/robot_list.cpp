@@ -5,7 +5,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <set>
 #include <string>
 #include <string_view>
@@ -56,27 +55,6 @@ void note_idle_motion(const Value& robots, const std::set<std::string_view>& in_
     idle.note(out.notices);
 }
 
-/// Checks a [[robot]] without a place beside robots that a world or a movement file places: it must
-/// be one of these robots.
-/// @param robot   table of the robot, as read from the scenario
-/// @param placed  names of the robots that the world or the movement file places
-/// @throws InputError at the name of the robot, with a suggestion
-void check_placed(const Value& robot, const std::vector<std::string>& placed) {
-    const Table* table = robot.table();
-    const Value* name = table ? table->find("name") : nullptr;
-    if (!name || !name->string() || placed.empty()) return;
-    for (const char* key : {"at", "place", "move", "count"}) {
-        if (table->find(key)) return;
-    }
-    if (std::ranges::find(placed, *name->string()) != placed.end()) return;
-    const std::string near = did_you_mean(*name->string(), placed);
-    throw InputError(
-        name->where,
-        fmt::format("name: no world and no movement file has a robot \"{}\"; expected the name of "
-                    "one of their robots, such as \"{}\", or a new robot with the key \"at\"{}{}",
-                    *name->string(), placed.front(), near.empty() ? "" : "; ", near));
-}
-
 }  // namespace
 
 void read_robots(TableReader& document, Scenario& out) {
@@ -88,8 +66,7 @@ void read_robots(TableReader& document, Scenario& out) {
     std::vector<std::string> placed(in_file.begin(), in_file.end());
     std::vector<RobotTable> robots;
     for (const Value& table : document.take_list("robot")) {
-        check_placed(table, placed);
-        robots.push_back(read_robot(table, out, needs_place));
+        robots.push_back(read_robot(table, out, needs_place, placed));
         const bool is_of_world = out.scene.world && table.where.source != out.file;
         if (is_of_world) placed.push_back(robots.back().name);
     }

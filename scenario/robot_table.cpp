@@ -119,6 +119,20 @@ Table place_document(const PlaceTable& place) {
     return table;
 }
 
+/// Reports a robot without a place. Beside robots that a world or a movement file places, it is
+/// probably meant to be one of them.
+[[noreturn]] void throw_without_place(const TableReader& table, const RobotTable& robot,
+                                      const std::vector<std::string>& placed) {
+    if (placed.empty() || robot.count)
+        table.missing("at", "at = [\"2 m\", \"3 m\"], or place = { ... }");
+    const std::string near = did_you_mean(robot.name, placed);
+    throw InputError(
+        table.table().find("name")->where,
+        fmt::format("name: no world and no movement file has a robot \"{}\"; expected the name of "
+                    "one of their robots, such as \"{}\", or a new robot with the key \"at\"{}{}",
+                    robot.name, placed.front(), near.empty() ? "" : "; ", near));
+}
+
 }  // namespace
 
 void read_radio(const Value& value, const std::string& name, Radio& out, RadioPlaces& places) {
@@ -145,7 +159,8 @@ void read_radio(const Value& value, const std::string& name, Radio& out, RadioPl
 }
 
 RobotTable read_robot(const Value& value, const Scenario& scenario,
-                      const std::function<bool(const RobotTable&)>& needs_place) {
+                      const std::function<bool(const RobotTable&)>& needs_place,
+                      const std::vector<std::string>& placed) {
     TableReader table(value, "[[robot]]");
     expect_keys(table);
     RobotTable robot;
@@ -156,12 +171,11 @@ RobotTable read_robot(const Value& value, const Scenario& scenario,
     if (robot.at) robot.at_where = table.take("at")->where;
     if (const Value* place = table.take("place")) robot.place = read_place(*place);
     if (robot.at && robot.place) table.only_one_of("at", "place");
-    const bool placed = robot.at || robot.place;
-    if (const Value* move = table.take("move")) robot.move = read_move(*move, placed);
+    const bool has_place = robot.at || robot.place;
+    if (const Value* move = table.take("move")) robot.move = read_move(*move, has_place);
     if (const Value* scan = table.take("scan")) robot.scan = read_scanners(*scan);
-    if (!placed && needs_place(robot) && !robot.move.draws_place()) {
-        table.missing("at", "at = [\"2 m\", \"3 m\"], or place = { ... }");
-    }
+    if (!has_place && needs_place(robot) && !robot.move.draws_place())
+        throw_without_place(table, robot, placed);
     if (const Value* role = table.take("role")) {
         const auto roles = all_roles();
         robot.role = roles[read_choice(*role, "role", roles)];

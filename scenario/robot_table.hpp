@@ -140,9 +140,11 @@ struct Scenario;
 /// before.
 /// @param needs_place  returns false for robots, known by name and count, whose positions all come
 ///                     from a movement file; their names may have dots
+/// @param placed       names of robots that a world or a movement file places, for suggestions
 /// @throws InputError at the first mistake
 RobotTable read_robot(const Value& value, const Scenario& scenario,
-                      const std::function<bool(const RobotTable&)>& needs_place);
+                      const std::function<bool(const RobotTable&)>& needs_place,
+                      const std::vector<std::string>& placed = {});
 
 /// Converts a robot to a table [[robot]]: the inverse of read_robot(). Values equal to the
 /// scenario's defaults are omitted.

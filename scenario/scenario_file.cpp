@@ -16,6 +16,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <set>
 
 namespace rovernet {
 namespace {
@@ -158,8 +159,15 @@ const std::string* name_in(const Value& robot) {
 /// robots of the document.
 Array merged_robots(const Array& of_world, const Array& of_document) {
     Array all = of_world;
+    std::set<std::string> merged;
     for (const Value& robot : of_document) {
         const std::string* name = name_in(robot);
+        if (name && !merged.insert(*name).second) {
+            throw InputError(robot.where,
+                             fmt::format("a second [[robot]] is named \"{}\"; expected "
+                                         "one table for each robot",
+                                         *name));
+        }
         const auto same = std::find_if(all.begin(), all.end(), [&](const Value& other) {
             return name && name_in(other) && *name_in(other) == *name;
         });

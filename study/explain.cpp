@@ -39,7 +39,7 @@ std::string replay_command(const Store& store, const std::string& replay,
     const Value* radio = point.settings.find("radio");
     const std::string name = radio ? plain_text(*radio) : "";
     const bool is_with = name.find('=') != name.npos && name != store.property("first");
-    return is_with ? replay + " --with " + shell_word(name) : replay;
+    return replay + (is_with ? " --with " + shell_word(name) : " --verify");
 }
 
 }  // namespace

@@ -401,6 +401,12 @@ TEST_CASE("stage world: a [[robot]] without a place must be a robot of the world
     CHECK_THROWS_WITH_AS(load("bsae"), doctest::Contains("a.toml:4:8: name: no world and no"),
                          InputError);
     CHECK_THROWS_WITH_AS(load("bsae"), doctest::Contains("did you mean \"base\"?"), InputError);
+    const std::string moved =
+        "bsae\"\nmove = { model = \"waypoints\", path = [[\"1 m\", \"1 m\"]] }\nrole = \"";
+    CHECK_THROWS_WITH_AS(load(moved), doctest::Contains("did you mean \"base\"?"), InputError);
+    CHECK_THROWS_WITH_AS(load("base\"\n[[robot]]\nname = \"base"),
+                         doctest::Contains("a.toml:5:1: a second [[robot]] is named \"base\""),
+                         InputError);
 }
 
 TEST_CASE("stage world: a model whose macro is missing becomes a robot if the model has a wifi") {
