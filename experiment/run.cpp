@@ -117,7 +117,13 @@ RunResult ScenarioRun::finish() {
     result_.interference_left_out = network.interference_left_out();
     result_.timeline = timeline_;
     result_.wall_s = std::chrono::duration<double>(WallClock::now() - begun_).count();
-    if (!result_.folder.empty()) write_results();
+    if (result_.folder.empty()) return std::move(result_);
+    try {
+        write_results();
+    } catch (const RunError& error) {
+        result_.folder.clear();
+        throw UnwrittenResults(error, std::move(result_));
+    }
     return std::move(result_);
 }
 

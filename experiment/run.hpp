@@ -2,6 +2,7 @@
 #pragma once
 
 #include "scenario/document/value.hpp"
+#include "sim/error.hpp"
 #include "sim/router.hpp"
 #include "sim/time.hpp"
 #include "sim/units.hpp"
@@ -74,6 +75,13 @@ struct RunResult {
     Duration measured() const { return std::max(simulated - warmup, Duration{0}); }
 };
 
+/// Error of a run whose results cannot be written. `result` has the results, without a folder.
+struct UnwrittenResults : RunError {
+    UnwrittenResults(const RunError& error, RunResult run)
+        : RunError(error), result(std::move(run)) {}
+    RunResult result;
+};
+
 /// Choice of the results that a run collects, in addition to the sinks that its caller adds.
 enum class Observed {
     everything,    ///< metrics (no warm-up), requested topology, fingerprint, timeline
@@ -136,7 +144,7 @@ class ScenarioRun {
 
 /// Runs a scenario and writes summary.json, scenario.toml and its traces into the folder of the
 /// run, each completely or not at all.
-/// @throws InputError, RunError, Interrupted
+/// @throws InputError, RunError, Interrupted; UnwrittenResults if the run is over
 RunResult run_scenario(const Scenario& scenario, const RunOptions& options);
 /// Runs the scenario of a file, overridden by `settings` (values by path, as in the option --set).
 RunResult run_scenario(const ScenarioFile& file, const Table& settings, const RunOptions& options);

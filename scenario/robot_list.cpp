@@ -2,6 +2,7 @@
 #include "scenario/robot_list.hpp"
 
 #include "scenario/affected.hpp"
+#include "scenario/document/located.hpp"
 
 #include <fmt/format.h>
 
@@ -80,6 +81,13 @@ void check_robots(TableReader& document, const Scenario& scenario, bool needs_ro
     if (!scenario.robots.empty() || !scenario.movement.robots.empty()) return;
     const bool has_map = scenario.scene.has_maps() || scenario.scene.world;
     if (!needs_robots && has_map) return;
+    if (const auto& file = scenario.movement.file) {
+        located_file(scenario.movement.where, "file", [&]() -> void {
+            throw InputError({*file},
+                             "found no robot in this movement file; expected at least "
+                             "one robot with a position");
+        });
+    }
     if (!scenario.scene.world) {
         document.missing("robot", needs_robots ? "[[robot]] with a name and a place"
                                                : "[[robot]] with a name and a place, or [scene] "

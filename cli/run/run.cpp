@@ -87,7 +87,8 @@ void print_result(const Scenario& scenario, const RunResult& result) {
                         db->value));
     }
     if (const std::string text = result.network->routing_notice(); !text.empty()) notice(text);
-    notice(fmt::format("{} events, {:.2f} s; results in {}", result.events, result.wall_s,
+    notice(fmt::format("{} events, {:.2f} s; {}{}", result.events, result.wall_s,
+                       result.folder.empty() ? "no results were written" : "results in ",
                        result.folder));
 }
 
@@ -108,21 +109,28 @@ void run(const RunArguments& a) {
     const Scenario& scenario = *read;
     std::optional<Waiting> waiting("setting up the network of " + a.file);
     std::optional<HeldStop> writing;  // not while the network is set up
-    const RunResult result =
-        run_scenario(scenario, {.folder = a.out ? *a.out : run_folder(scenario, a.options.set),
-                                .speed = a.speed,
-                                .progress = [&](double share) {
-                                    if (!writing) {
-                                        waiting.reset();
-                                        waiting.emplace("running " + a.file);
-                                        writing.emplace();
-                                    }
-                                    waiting->tell(share);
-                                    return stops_asked() == 0;
-                                }});
-    waiting.reset();
-    writing.reset();
-    print_run(scenario, result, a.json);
+    const auto tell = [&](double share) {
+        if (!writing) {
+            waiting.reset();
+            waiting.emplace("running " + a.file);
+            writing.emplace();
+        }
+        waiting->tell(share);
+        return stops_asked() == 0;
+    };
+    const auto end = [&](const RunResult& result) {
+        waiting.reset();
+        writing.reset();
+        print_run(scenario, result, a.json);
+    };
+    try {
+        end(run_scenario(scenario, {.folder = a.out ? *a.out : run_folder(scenario, a.options.set),
+                                    .speed = a.speed,
+                                    .progress = tell}));
+    } catch (const UnwrittenResults& unwritten) {
+        end(unwritten.result);
+        throw;
+    }
 }
 
 void print_run(const Scenario& scenario, const RunResult& result, bool json) {

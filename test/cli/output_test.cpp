@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "test/cli/process.hpp"
+#include "test/scene/png_writer.hpp"
 #include "test/scene/temporary_folder.hpp"
 
 #include <doctest/doctest.h>
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -46,6 +48,52 @@ TEST_CASE("output: a write error is reported, and the exit code is 1") {
         CHECK(ended.exit == 1);
         CHECK(ended.err == "rovernet: the output cannot be written: No space left on device\n");
     }
+}
+
+TEST_CASE("output: no command replaces a file that it reads, except by the same contents") {
+    const TemporaryFolder folder;
+    const std::string text =
+        "# mine\n[scene]\nmap = \"m.png\"\nsize = [\"8 m\", \"8 m\"]\n"
+        "[[robot]]\nname = \"A\"\nat = [\"2 m\", \"2 m\"]\n";
+    const std::string scenario = folder.write("scenario.toml", text), here = folder.path("");
+    const std::string map = folder.write("m.png", png_bytes({.rows = {{255}}}));
+    const std::string moves = folder.write("m.tcl", "$node_(0) set X_ 3.0\n");
+    const std::string link = folder.path("link.toml");
+    std::filesystem::create_symlink(scenario, link);
+    for (const std::vector<std::string>& words : std::vector<std::vector<std::string>>{
+             {"run", scenario, "--out", here},
+             {"live", scenario, "--controller", "true", "--out", here},
+             {"draw", scenario, "-o", map},
+             {"view", scenario, "-o", scenario},
+             {"run", link, "--out", here},
+             {"move", "convert", moves, moves}}) {
+        CAPTURE(words[0]);
+        const Ended ended = command(folder, words);
+        CHECK(ended.exit == 1);
+        CHECK(ended.err.find("this file is an input of the command") != std::string::npos);
+    }
+    CHECK(content(scenario) == text);
+    CHECK(content(map) == png_bytes({.rows = {{255}}}));
+    CHECK_FALSE(std::filesystem::exists(folder.path("summary.json")));
+
+    // The scenario of a run's folder may be run into this folder again.
+    const std::string out = folder.path("out");
+    CHECK(command(folder, {"run", scenario, "--out", out}).exit == 0);
+    CHECK(command(folder, {"run", out + "/scenario.toml", "--out", out}).exit == 0);
+    CHECK(command(folder, {"run", out + "/scenario.toml", "--seed", "7", "--out", out}).exit == 1);
+}
+
+TEST_CASE("output: results that cannot be written are printed") {
+    const TemporaryFolder folder;
+    const std::string file = folder.write("s.toml",
+                                          "[[robot]]\nname = \"A\"\nat = [\"2 m\", \"2 m\"]\n"
+                                          "[[traffic]]\nfrom = \"A\"\npayload = \"x\"\n");
+    std::filesystem::create_directories(folder.path("out/summary.json"));  // a folder of this name
+    const Ended ended = command(folder, {"run", file, "--out", folder.path("out")});
+    CHECK(ended.exit == 1);
+    CHECK(ended.out.find("messages 1, ") != std::string::npos);
+    CHECK(ended.err.find("summary.json: cannot be written") != std::string::npos);
+    CHECK(ended.err.find("no results were written") != std::string::npos);
 }
 
 TEST_CASE(

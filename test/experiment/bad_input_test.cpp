@@ -59,6 +59,7 @@ void write_maps(const TemporaryFolder& folder) {
     folder.write("cut.png", walls_png().substr(0, 60));
     folder.write("huge.png", huge_png());
     folder.write("text.png", "this is no picture");
+    folder.write("empty.xml", "<fcd-export></fcd-export>\n");
     folder.write("two.tcl", "$node_(0) set X_ 1\n$node_(1) set X_ 2\n");
     std::filesystem::create_directory(folder.path("folder.png"));
     const std::string rest = "resolution: 1\norigin: [0, 0, 0]\n";
@@ -152,6 +153,7 @@ const std::vector<Mistake> mistakes = {
     {robot_a + "[fading]\nmodel = \"nakagami\"\nm = 0.4", "6:5", {"from 0.5 to 100"}},
     {robot_a + "[fading]\nmodel = \"rician\"\nk_factor = \"40 dB\"", "6:12", {"30 dB"}},
     {"[links]\ntolerance = \"0 s\"\n" + robot_a, "2:13", {"1 ns"}},
+    {"[movement]\nfile = \"empty.xml\"\n", "2:8", {"found no robot in this movement file"}},
     {"[movement]\nfile = \"none.tcl\"\n" + robot_a, "2:8", {"none.tcl"}},
     {"[scene]\nworld = \"none.world\"\n" + robot_a, "2:9", {"none.world"}},
     {"[scene]\nworld_path = [\".\"]\n" + robot_a, "1:1", {"world", "key \"world_path\" needs"}},
