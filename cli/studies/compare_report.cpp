@@ -180,9 +180,7 @@ void print_table(const Comparison& c, bool is_brief) {
 
 /// Notes on the data behind the numbers, and missing runs.
 void print_coverage(const Comparison& c) {
-    for (const std::string& text : {c.one_hop, c.held}) {
-        if (!text.empty()) fmt::print("{}\n", text);
-    }
+    if (!c.held.empty()) fmt::print("{}\n", c.held);
     const std::string lacking = incompleteness(c.runs);
     if (!lacking.empty()) fmt::print("{}\n", lacking);
     for (const ComparedModel& m : c.models) {
@@ -223,6 +221,7 @@ void print_text(const std::vector<Comparison>& all) {
         if (&c != &all.front()) fmt::print("\n");
         print_findings(c, is_brief);
     }
+    if (!all.front().one_hop.empty()) fmt::print("\n{}\n", all.front().one_hop);
     const Comparison& c = all.front();
     const auto is_known = [](const PairedVariance& pair) { return pair.ratio.has_value(); };
     if (is_brief || std::ranges::none_of(c.pairs, is_known)) return;

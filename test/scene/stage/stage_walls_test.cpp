@@ -358,7 +358,9 @@ TEST_CASE(
         CHECK(drawn(world.grid("model ( bitmap \"bits/old.pgm\" size [1 1] )\n")) == "#.#");
     }
     world.options.bitmaps = {{"ld.pgm", "new.pgm"}};
-    CHECK(world.mistake("model ( bitmap \"old.pgm\" )\n") != "");
+    const std::string unknown = world.mistake("model ( bitmap \"old.pgm\" )\n");
+    CHECK(contains(unknown, "bitmap ld.pgm=new.pgm: the world names no bitmap \"ld.pgm\""));
+    CHECK(contains(unknown, "did you mean \"old.pgm\"?"));
 }
 
 TEST_CASE("stage walls: several models may use one bitmap, each scaled to its own size") {
