@@ -4,6 +4,7 @@
 #include "experiment/run_folder.hpp"
 #include "scenario/document/toml.hpp"
 #include "scenario/scenario_file.hpp"
+#include "scene/wall_digest.hpp"
 #include "sim/error.hpp"
 
 #include <fmt/format.h>
@@ -113,6 +114,7 @@ RecordedScenario recorded_scenario(const Scenario& scenario, const std::string& 
     if (const auto& file = scenario.movement.file)
         take(*document.find("movement")->table(), "file", "file", {here / *file});
     recorded.text = to_toml(document);
+    if (scenario.scene.world && scenario.walls) recorded.walls = wall_digest(*scenario.walls);
     return recorded;
 }
 
@@ -139,7 +141,8 @@ std::string ReplayedScenario::find_file(const RecordedRun& run, const std::strin
             name));
 }
 
-ReplayedScenario::ReplayedScenario(const RecordedRun& run, const std::string& path) : trace_(path) {
+ReplayedScenario::ReplayedScenario(const RecordedRun& run, const std::string& path)
+    : trace_(path), walls_(run.walls) {
     if (run.scenario.empty()) {
         throw InputError({.source = path},
                          "this trace has no scenario, because a C++ program built its network; "
@@ -187,7 +190,11 @@ ReplayedScenario::ReplayedScenario(const RecordedRun& run, const std::string& pa
 
 Scenario ReplayedScenario::with(const std::vector<std::string>& set) const {
     try {
-        return load_scenario(file_, {.set = set});
+        Scenario scenario = load_scenario(file_, {.set = set});
+        const bool changes_scene = std::ranges::any_of(
+            set, [](const std::string& option) { return option.starts_with("scene."); });
+        if (!changes_scene) check_walls(scenario);
+        return scenario;
     } catch (const InputError& error) {
         // The user gave the assignments by --with, and does not know the temporary folder.
         constexpr std::string_view option = "--set ";
@@ -210,6 +217,16 @@ Scenario ReplayedScenario::with(const std::vector<std::string>& set) const {
         }
         throw InputError(where, message);
     }
+}
+
+/// A world and its parts are not attached to the trace, so they may have changed.
+void ReplayedScenario::check_walls(const Scenario& scenario) const {
+    if (walls_.empty() || !scenario.walls || wall_digest(*scenario.walls) == walls_) return;
+    throw InputError({.source = trace_},
+                     fmt::format("the walls of {} have changed since this run was recorded, so its "
+                                 "levels cannot be computed; restore the world with its includes "
+                                 "and bitmaps, or record the run again",
+                                 fs::path(*scenario.scene.world).lexically_normal().string()));
 }
 
 void check_robots(const RecordedRun& run, const Scenario& scenario, const std::string& path) {

@@ -20,6 +20,8 @@ struct RecordedScenario {
     /// Attached files: the map with its picture and the movement file, unless they are larger than
     /// 64 MB. Files of a Stage world are not attached.
     std::vector<AttachedFile> files;
+    /// Digest of the walls of a Stage world, see wall_digest(); empty: no world.
+    std::string walls = {};
 };
 /// Converts a scenario to the form in which a recorded trace stores it.
 /// @param folder  folder of the trace
@@ -35,7 +37,9 @@ class ReplayedScenario {
     ReplayedScenario(const RecordedRun& run, const std::string& path);
 
     /// Scenario with its map loaded, overridden by assignments "path=value", see set_option().
-    /// @throws InputError if the scenario is invalid
+    /// @throws InputError if the scenario is invalid, or if the walls of its Stage world are not
+    /// those
+    ///         of the recorded run, unless an assignment changes the scene
     Scenario with(const std::vector<std::string>& set) const;
 
   private:
@@ -44,7 +48,10 @@ class ReplayedScenario {
     /// trace.
     std::string find_file(const RecordedRun& run, const std::string& name) const;
 
+    void check_walls(const Scenario& scenario) const;
+
     std::string trace_;          // path of the trace
+    std::string walls_;          // digest of the walls of the recorded run; empty: not known
     TemporaryDirectory folder_;  // folder of the attached files
     std::string file_;           // path of the scenario file in folder_
 };

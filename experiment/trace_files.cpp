@@ -38,11 +38,12 @@ std::vector<TraceFile> trace_files(const Scenario& scenario, const std::string& 
     }
     if (scenario.trace.record) {
         const std::string path = folder + recorded_name;
-        auto [text, attached] = recorded_scenario(scenario, folder);
+        RecordedScenario stored = recorded_scenario(scenario, folder);
         const auto trace = std::make_shared<RecordedTrace>(
             path, RecordedTrace::Contents{.version = code_version(),
-                                          .scenario = std::move(text),
-                                          .files = std::move(attached),
+                                          .scenario = std::move(stored.text),
+                                          .walls = std::move(stored.walls),
+                                          .files = std::move(stored.files),
                                           .links = scenario.trace.links});
         files.push_back({path, trace, [trace] { trace->close(); }});
     }

@@ -4,6 +4,7 @@
 #include "scenario/document/toml.hpp"
 #include "scenario/scenario_file.hpp"
 #include "scenario/unlikely.hpp"
+#include "scene/wall_digest.hpp"
 #include "study/measurement.hpp"
 
 #include <fmt/format.h>
@@ -70,35 +71,6 @@ void check_differ(const Axis& axis) {
                          fmt::format("vary: {} is listed twice; expected different values",
                                      settings_text(values)));
     }
-}
-
-/// The walls as bytes: where they are and what they are made of.
-std::string wall_bytes(const Scene& scene) {
-    std::string bytes;
-    const auto append = [&](double v) {
-        bytes.append(reinterpret_cast<const char*>(&v), sizeof v);
-    };
-    for (const WallRectangle& wall : scene.wall_rectangles()) {
-        for (const Vec3& corner : wall.corners) {
-            append(corner.x);
-            append(corner.y);
-        }
-        append(static_cast<double>(wall.material));
-    }
-    for (std::size_t i = 0; i < scene.storeys().size(); ++i) {
-        if (i > 0) append(scene.storeys().floor(i));
-        for (const Cell cell : scene.storey(i).grid().cells) bytes += static_cast<char>(cell);
-    }
-    const auto append_material = [&](const Material& m) {
-        append(m.per_crossing ? m.per_crossing->value : -1);
-        append(m.per_metre ? m.per_metre->value : -1);
-        append(m.slab ? static_cast<double>(*m.slab) : -1);
-        append(m.thickness.value);
-        append(m.height.value);
-    };
-    for (const Material& m : scene.materials()) append_material(m);  // some are of a file beside
-    for (const Material& m : scene.storeys().ceilings()) append_material(m);
-    return bytes;
 }
 
 std::string file_bytes(const std::filesystem::path& path) {
@@ -232,7 +204,7 @@ const Study::Walls& Study::walls(const Scenario& scenario) {
     if (is_new) {
         walls.scene = scenario.walls ? scenario.walls
                                      : load_map(scenario.scene, scenario.file, base_.notices);
-        if (walls.scene) walls.digest = hash(wall_bytes(*walls.scene));
+        if (walls.scene) walls.digest = wall_digest(*walls.scene);
         walls.changes = std::make_shared<const std::vector<SceneChange>>(
             load_doors(scenario.scene, walls.scene));
     }

@@ -96,12 +96,13 @@ RecordedDay::RecordedDay(RecordedRun run, const std::string& path, DayLog log)
 
 PlayedDay RecordedDay::record(const std::string& path, const std::vector<std::string>& set,
                               const std::function<bool(double)>& progress) const {
-    auto [text, files] =
+    RecordedScenario scenario =
         recorded_scenario(scenario_->with(set), std::filesystem::path(path).parent_path().string());
-    const auto trace =
-        std::make_shared<RecordedTrace>(path, RecordedTrace::Contents{.version = code_version(),
-                                                                      .scenario = std::move(text),
-                                                                      .files = std::move(files)});
+    const auto trace = std::make_shared<RecordedTrace>(
+        path, RecordedTrace::Contents{.version = code_version(),
+                                      .scenario = std::move(scenario.text),
+                                      .walls = std::move(scenario.walls),
+                                      .files = std::move(scenario.files)});
     PlayedDay played = play(set, progress, {Sink(trace)});
     trace->close();
     return played;

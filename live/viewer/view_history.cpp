@@ -59,10 +59,12 @@ class ViewHistory::Records {
     /// Begins a file with the legs and states of all robots, and deletes the last but one.
     void begin_file() {
         before_ = std::exchange(last_, {});
-        last_.trace = std::make_unique<RecordedTrace>(
-            fmt::format("{}/{}.mcap", folder_, number_++),
-            RecordedTrace::Contents{
-                .version = code_version(), .scenario = scenario_.text, .files = scenario_.files});
+        last_.trace =
+            std::make_unique<RecordedTrace>(fmt::format("{}/{}.mcap", folder_, number_++),
+                                            RecordedTrace::Contents{.version = code_version(),
+                                                                    .scenario = scenario_.text,
+                                                                    .walls = scenario_.walls,
+                                                                    .files = scenario_.files});
         last_.index = std::make_shared<RecordedIndex>();
         std::string name;  // of the robot that was asked for last
         last_.trace->begin(

@@ -111,6 +111,7 @@ void RecordedReader::read_metadata(std::string_view content) {
         const std::string_view key = entries.text(), value = entries.text();
         if (key == "version") run_.version = value;
         if (key == "scenario") run_.scenario = value;
+        if (key == "walls") run_.walls = value;
         if (key == "seed") run_.seed = number_in<std::uint64_t>(value);
         if (key == "replication") run_.replication = number_in<std::uint32_t>(value);
         if (key != "format") continue;

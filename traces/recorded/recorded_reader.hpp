@@ -27,6 +27,8 @@ struct RecordedRun {
     std::uint32_t replication = 0;
     /// Names of the robots by NodeId.
     std::vector<std::string> robots;
+    /// Digest of the walls of the scenario's Stage world; empty: not known.
+    std::string walls;
     /// Files that the scenario refers to.
     std::vector<AttachedFile> files;
     /// Names of attached files that are broken; their content is not known.

@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <deque>
 #include <exception>
+#include <map>
 #include <mutex>
 #include <optional>
 #include <thread>
@@ -120,11 +121,13 @@ void RecordedTrace::Packer::begin(const RunInfo& run) {
         names += run.name(node);
         names += '\n';
     }
-    file_.metadata("rovernet", {{"format", std::to_string(recorded_format)},
-                                {"version", contents_.version},
-                                {"seed", std::to_string(run.seed)},
-                                {"replication", std::to_string(run.replication)},
-                                {"scenario", scenario}});
+    std::map<std::string, std::string> entries{{"format", std::to_string(recorded_format)},
+                                               {"version", contents_.version},
+                                               {"seed", std::to_string(run.seed)},
+                                               {"replication", std::to_string(run.replication)},
+                                               {"scenario", scenario}};
+    if (!contents_.walls.empty()) entries["walls"] = contents_.walls;
+    file_.metadata("rovernet", entries);
     file_.attach({"robots.txt", "text/plain", std::move(names)});
     for (const AttachedFile& file : contents_.files) file_.attach(file);
     contents_.files.clear();

@@ -29,6 +29,8 @@ class RecordedTrace {
         std::string version;
         /// Scenario to store, as TOML; empty: the scenario that begin() receives in RunInfo.
         std::string scenario = {};
+        /// Digest of the walls of the scenario's Stage world; empty: no world.
+        std::string walls = {};
         /// Files that the scenario refers to.
         std::vector<AttachedFile> files = {};
         /// True: link changes are recorded, too. The network must then search for their times.

@@ -5,6 +5,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <sstream>
@@ -261,6 +262,41 @@ TEST_CASE("replay --verify of a damaged, incomplete or empty trace fails and say
               .err.find("is a ZIP archive; expected a recorded trace (.mcap), not compressed") !=
           std::string::npos);
     CHECK(verify(whole.substr(0, 40)).exit == 3);
+}
+
+TEST_CASE("replay: a trace whose Stage world has other walls since then is refused") {
+    const TemporaryFolder folder;
+    const std::string wall = "model ( size [0.2 6 2] pose [5 0 0 0] )\n";
+    const std::string robots =
+        "position ( name \"a\" wifi ( ) )\nposition ( name \"b\" pose [9 0 0 0] wifi ( ) )\n";
+    folder.write("w.world", wall + robots);
+    const std::string file =
+        folder.write("s.toml",
+                     "[scenario]\nduration = \"2 s\"\n[scene]\nworld = \"w.world\"\n"
+                     "[[traffic]]\nfrom = \"a\"\npayload = \"x\"\n");
+    const std::string out = folder.path("run"), trace = out + "/trace.mcap";
+    REQUIRE(command(folder, {"run", file, "--record", "-q", "--out", out}).exit == 0);
+    const std::vector<std::vector<std::string>> commands{
+        {"replay", trace, "--verify"},
+        {"replay", trace, "--with", "radio.power=5 dBm"},
+        {"view", trace, "-o", folder.path("v.html")},
+        {"trace", "convert", trace, folder.path("x.pcapng"), "--to", "pcapng"}};
+    for (const auto& words : commands) CHECK(command(folder, words).exit == 0);
+    folder.write("w.world", "model ( size [1 6 2] pose [7 0 0 0] )\n" + wall + robots);
+    for (const auto& words : commands) {
+        CAPTURE(words[0]);
+        const Ended ended = command(folder, words);
+        CHECK(ended.exit == 3);
+        CHECK(ended.err.find("w.world have changed since this run was recorded") !=
+              std::string::npos);
+    }
+    // What needs neither levels nor walls is still there.
+    CHECK(command(folder, {"trace", "follow", trace, "--message", "0"}).exit == 0);
+
+    // A world that was moved is found beside the trace.
+    folder.write("run/w.world", wall + robots);
+    std::filesystem::remove(folder.path("w.world"));
+    CHECK(command(folder, commands[0]).exit == 0);
 }
 
 }  // namespace replay_test
