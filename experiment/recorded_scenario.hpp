@@ -37,9 +37,8 @@ class ReplayedScenario {
     ReplayedScenario(const RecordedRun& run, const std::string& path);
 
     /// Scenario with its map loaded, overridden by assignments "path=value", see set_option().
-    /// @throws InputError if the scenario is invalid, or if the walls of its Stage world are not
-    /// those
-    ///         of the recorded run, unless an assignment changes the scene
+    /// @throws InputError if the scenario is invalid, or if the walls of its Stage world have
+    ///         changed since the run was recorded, unless an assignment changes the scene
     Scenario with(const std::vector<std::string>& set) const;
 
   private:

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cstddef>
 #include <map>
 #include <set>
@@ -266,6 +267,14 @@ void Parser::note_unknown_type(const WorldEntity& entity) {
                      fate, near.empty() ? "" : "; ", near));
 }
 
+/// Whether a text is a number and nothing else.
+bool reads_as_number(const std::string& text) {
+    double number = 0;
+    const char* const end = text.data() + text.size();
+    const auto [stop, error] = std::from_chars(text.data(), end, number);
+    return error == std::errc{} && stop == end;
+}
+
 }  // namespace
 
 const WorldProperty* WorldEntity::find(std::string_view name) const {
@@ -279,8 +288,13 @@ double WorldProperty::number() const {
     const double* value =
         values.size() == 1 && !is_tuple ? std::get_if<double>(&values[0]) : nullptr;
     if (value) return *value;
-    throw InputError(where, fmt::format("{}: found {}; expected one number; write {} 1", name,
-                                        is_tuple ? "a list" : "a text", name));
+    // A number in quotes is repeated without them.
+    const auto* quoted =
+        values.size() == 1 && !is_tuple ? std::get_if<std::string>(&values[0]) : nullptr;
+    const bool is_number = quoted && reads_as_number(*quoted);
+    throw InputError(where,
+                     fmt::format("{}: found {}; expected one number; write {} {}", name,
+                                 is_tuple ? "a list" : "a text", name, is_number ? *quoted : "1"));
 }
 
 const std::string& WorldProperty::text() const {

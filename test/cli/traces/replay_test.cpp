@@ -264,6 +264,39 @@ TEST_CASE("replay --verify of a damaged, incomplete or empty trace fails and say
     CHECK(verify(whole.substr(0, 40)).exit == 3);
 }
 
+TEST_CASE("replay: errors about a trace that is cut off anywhere name the trace") {
+    const TemporaryFolder folder;
+    std::string picture = "P2 60 60 255";
+    for (int i = 0; i < 60 * 60; ++i) picture += " " + std::to_string(235 + i * 37 % 20);
+    folder.write("m.pgm", picture + "\n");
+    folder.write("m.yaml",
+                 "image: m.pgm\nresolution: 0.1\norigin: [0, 0, 0]\nnegate: 0\n"
+                 "occupied_thresh: 0.65\nfree_thresh: 0.1\n");
+    const std::string file =
+        folder.write("s.toml",
+                     "[scenario]\nduration = \"2 s\"\n[scene]\nmap = \"m.yaml\"\n"
+                     "[[robot]]\nname = \"a\"\nat = [\"1 m\", \"1 m\"]\n"
+                     "[[traffic]]\nfrom = \"a\"\npayload = \"x\"\n");
+    const std::string out = folder.path("run");
+    REQUIRE(command(folder, {"run", file, "--record", "-q", "--out", out}).exit == 0);
+    const std::string whole = text_of(out + "/trace.mcap");
+    std::size_t cut_in_map = 0;
+    for (std::size_t size = 100; size < whole.size(); size += 900) {
+        CAPTURE(size);
+        const std::string cut = folder.write("cut.mcap", whole.substr(0, size));
+        const Ended ended = command(folder, {"replay", cut, "--verify"});
+        CHECK(ended.exit != 0);
+        CHECK(ended.err.find("cut.mcap: ") != std::string::npos);
+        // No file of a temporary folder, which the user does not know.
+        std::string rest = ended.err;
+        for (auto at = rest.find(cut); at != rest.npos; at = rest.find(cut))
+            rest.erase(at, cut.size());
+        CHECK(rest.find("/rovernet-") == std::string::npos);
+        cut_in_map += ended.err.find("cannot be read: ") != std::string::npos;
+    }
+    CHECK(cut_in_map > 3);
+}
+
 TEST_CASE("replay: a trace whose Stage world has other walls since then is refused") {
     const TemporaryFolder folder;
     const std::string wall = "model ( size [0.2 6 2] pose [5 0 0 0] )\n";

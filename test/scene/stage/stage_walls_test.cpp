@@ -393,6 +393,8 @@ TEST_CASE("stage walls: a value of a wrong type is refused, with line and column
     const World world;
     CHECK(world.mistake("model ( laser_return \"yes\" )\n") ==
           "1:9: laser_return: found a text; expected one number; write laser_return 1");
+    CHECK(world.mistake("model ( laser_return \"0.5\" )\n") ==
+          "1:9: laser_return: found a text; expected one number; write laser_return 0.5");
     CHECK(
         world.mistake("model ( bitmap 5 )\n").starts_with("1:9: bitmap: found a number; expected"));
     CHECK(world.mistake("model ( block ( ) )\n") ==
