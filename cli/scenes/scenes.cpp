@@ -89,7 +89,7 @@ void print_scene(const Table& report) {
         return text.substr(0, text.size() - 1);
     };
     const Array& size = *report.find("size_m")->array();
-    fmt::print("{:<20} {} x {} m\n", "size", std::get<double>(size[0].data),
+    fmt::print("{:<20} {:.6g} x {:.6g} m\n", "size", std::get<double>(size[0].data),
                std::get<double>(size[1].data));
     if (const Value* floors = report.find("floors_m")) {
         std::string heights;

@@ -82,9 +82,12 @@ void Ns2Follower::on(const Ns2Packet& p) {
 
 FollowedMessage Ns2Follower::way(const std::string& trace) const {
     if (!is_found_) {
-        const std::string known =
-            least_ ? fmt::format("expected the id of a message, from {} to {}", *least_, most_)
-                   : "this trace has no messages";
+        std::string known = "this trace has no messages";
+        if (least_) {
+            known = fmt::format("expected the id of a message, from {} to {}", *least_, most_);
+            const bool is_between = way_.uid >= *least_ && way_.uid <= most_;
+            if (is_between) known += "; control packets have ids in this range, too";
+        }
         throw InputError({.source = trace},
                          fmt::format("found no message with the id {}; {}", way_.uid, known));
     }
