@@ -78,6 +78,11 @@ void put_file(const fs::path& path, const std::string& content) {
                        ": this file cannot be written; check the space on the disk");
 }
 
+/// Digest of the walls of a world; a word if the world has none.
+std::string digest_of_walls(const Scenario& scenario) {
+    return scenario.walls ? wall_digest(*scenario.walls) : "none";
+}
+
 /// Whether a file of this name stays inside its folder.
 bool is_inside(const std::string& name) {
     const fs::path path(name);
@@ -114,7 +119,7 @@ RecordedScenario recorded_scenario(const Scenario& scenario, const std::string& 
     if (const auto& file = scenario.movement.file)
         take(*document.find("movement")->table(), "file", "file", {here / *file});
     recorded.text = to_toml(document);
-    if (scenario.scene.world && scenario.walls) recorded.walls = wall_digest(*scenario.walls);
+    if (scenario.scene.world) recorded.walls = digest_of_walls(scenario);
     return recorded;
 }
 
@@ -201,15 +206,15 @@ Scenario ReplayedScenario::with(const std::vector<std::string>& set) const {
         Location where = error.where();
         const std::string here = folder_.path() + "/";
         std::string message = error.message();
-        if (const auto at = message.find(here); at != message.npos) {
-            message.erase(at, here.size());
+        const auto at = message.find(here);
+        if (at != message.npos) message.erase(at, here.size());
+        if (where.source.starts_with(option)) {
+            where.source.replace(0, option.size(), "--with ");
+        } else if (at != message.npos) {
             throw InputError({.source = trace_},
                              fmt::format("a file of the scenario of this trace cannot be read: {}; "
                                          "if the trace is cut off, record the run again",
                                          message));
-        }
-        if (where.source.starts_with(option)) {
-            where.source.replace(0, option.size(), "--with ");
         } else if (where.source.starts_with(here)) {
             where.source.replace(0, here.size(), trace_ + ": ");
         } else {
@@ -221,7 +226,7 @@ Scenario ReplayedScenario::with(const std::vector<std::string>& set) const {
 
 /// A world and its parts are not attached to the trace, so they may have changed.
 void ReplayedScenario::check_walls(const Scenario& scenario) const {
-    if (walls_.empty() || !scenario.walls || wall_digest(*scenario.walls) == walls_) return;
+    if (walls_.empty() || digest_of_walls(scenario) == walls_) return;
     throw InputError({.source = trace_},
                      fmt::format("the walls of {} have changed since this run was recorded, so its "
                                  "levels cannot be computed; restore the world with its includes "

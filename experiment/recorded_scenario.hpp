@@ -20,7 +20,8 @@ struct RecordedScenario {
     /// Attached files: the map with its picture and the movement file, unless they are larger than
     /// 64 MB. Files of a Stage world are not attached.
     std::vector<AttachedFile> files;
-    /// Digest of the walls of a Stage world, see wall_digest(); empty: no world.
+    /// Digest of the walls of a Stage world, see wall_digest(); "none": a world without walls;
+    /// empty: no world.
     std::string walls = {};
 };
 /// Converts a scenario to the form in which a recorded trace stores it.

@@ -35,7 +35,8 @@ void note_input(const std::string& path) {
 
 bool is_kept_input(const std::string& path) {
     struct stat status {};
-    if (!keeps || stat(path.c_str(), &status) != 0) return false;
+    // A rename replaces a link, not the file that it leads to.
+    if (!keeps || lstat(path.c_str(), &status) != 0) return false;
     const std::lock_guard lock(access_to_kept);
     return kept.contains({status.st_dev, status.st_ino});
 }
@@ -46,7 +47,8 @@ void check_output(const std::string& path, std::string_view contents) {
     using Bytes = std::istreambuf_iterator<char>;
     if (std::equal(contents.begin(), contents.end(), Bytes(file), Bytes())) return;
     throw RunError(path +
-                   ": this file is an input of the command; expected a different file to write");
+                   ": this file is an input of the command, and the results would replace it; "
+                   "expected a different folder for the results (--out)");
 }
 
 }  // namespace rovernet

@@ -16,11 +16,11 @@ void keep_inputs();
 /// Notes a file that is read as an input.
 void note_input(const std::string& path);
 
-/// Whether the path leads to a noted file, also by another name.
+/// Whether the path is a noted file, also by another name; false for a symbolic link.
 bool is_kept_input(const std::string& path);
 
-/// Checks before a long run that its output may be written: that it does not replace a noted file
-/// by different contents. @throws RunError
+/// Checks before a long run that one of its results may be written: that it does not replace a
+/// noted file by different contents. @throws RunError
 void check_output(const std::string& path, std::string_view contents);
 
 }  // namespace rovernet

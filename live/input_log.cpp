@@ -5,6 +5,7 @@
 #include "experiment/run_folder.hpp"
 #include "experiment/version.hpp"
 #include "files/base64.hpp"
+#include "files/kept_inputs.hpp"
 #include "network/network.hpp"
 #include "scenario/document/json.hpp"
 #include "scenario/document/toml.hpp"
@@ -117,9 +118,11 @@ InputLog::InputLog(const std::string& folder, const Scenario& scenario)
     : file_(fmt::format("{}/{}", folder, input_log_name), PartFile::Failed::is_kept,
             PartFile::Orphans::are_kept) {
     const std::string document = to_toml(document_in(folder, scenario));
-    // A folder with results keeps their scenario until new results replace it.
-    if (!has_results(folder)) {
-        scenario_ = fs::path(folder) / "scenario.toml";
+    // A folder with results keeps their scenario until new results replace it. The scenario that
+    // was read here is not written again, so that a failed run does not remove it.
+    const fs::path path = fs::path(folder) / "scenario.toml";
+    if (!has_results(folder) && !is_kept_input(path.string())) {
+        scenario_ = path;
         write_file(scenario_, document);
     }
     Table head;

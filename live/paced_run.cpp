@@ -82,6 +82,11 @@ class PacedServer {
         stay(result);
     }
 
+    /// Tells all clients that the run has ended without results.
+    void end_without_results() {
+        for (const ServedFront& each : open_) each.front->ended("", {});
+    }
+
     /// Ends all clients. @return errors that ended the run, and of programs
     std::string close() {
         std::chrono::milliseconds time_to_end = 10s;
@@ -400,7 +405,10 @@ LiveResult run_paced(Scenario scenario, const PacedOptions& options) {
             server.end(result);
             return {std::move(result), std::move(scenario), server.close(), server.lateness()};
         } catch (const Interrupted&) {
-            if (server.failed_to_begin()) throw RunError(server.close());
+            if (server.failed_to_begin()) {
+                server.end_without_results();
+                throw RunError(server.close());
+            }
             if (!server.new_seed() || !options.stop.go_on()) throw;
         }
         scenario.scenario.seed = *server.new_seed();

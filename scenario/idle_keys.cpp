@@ -81,8 +81,11 @@ bool IdleKeys::is_for_other(std::string_view table, const Entry& key, std::strin
     const Entry* chosen = given(table, of);
     if (varies || !chosen) return varies;
     const Location &choice = chosen->value.where, &parameter = key.value.where;
-    const bool is_typed_with_it = parameter.is_option && choice.source.starts_with("--set ");
-    return choice.is_option && !is_typed_with_it;  // --models tries several models
+    // These options of `compare` try several values.
+    constexpr std::string_view several[] = {"--models ", "--protocols ", "--vary "};
+    const bool tries_several = std::ranges::any_of(
+        several, [&](std::string_view option) { return choice.source.starts_with(option); });
+    return choice.is_option && (tries_several || !parameter.is_option);
 }
 
 /// "flood, aodv and dsr".

@@ -309,7 +309,9 @@ void TrafficReader::add_flow(const App& app, TrafficFile& file) {
     flow.start = *app.start - start_of_run;
     const double interval = app.interval.value_or(8 * app.size / app.rate);
     flow.every = std::max(from_seconds(interval), Duration{1});
+    flow.is_of_file = true;
     flow.from_where = from->second.where;
+    flow.start_where = app.where;
     flow.to_where = to->second.where;
     if (app.stop) flow.stop = *app.stop - start_of_run;
     if (flow.stop && *flow.stop <= *flow.start)

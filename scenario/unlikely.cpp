@@ -116,6 +116,8 @@ void note_payloads(Scenario& out) {
 
 /// Notices times after the end of the run: what they announce never happens.
 void note_late(Scenario& out) {
+    const auto varies_duration = [](const Vary& v) { return v.path == "scenario.duration"; };
+    if (std::ranges::any_of(out.study.vary, varies_duration)) return;
     const Duration end = out.scenario.duration;
     Affected late;
     const auto look = [&](Duration time, const Location& where, std::string_view key,
@@ -123,13 +125,14 @@ void note_late(Scenario& out) {
         if (time <= end) return;
         late.add([&] {
             return fmt::format(
-                "{}: {}: {:g} s is after the end of the run ({:g} s), so this time of robot \"{}\" "
+                "{}: {}: {:.9g} s is after the end of the run ({:.9g} s), so this time of robot "
+                "\"{}\" "
                 "has no effect",
                 where.text(), key, seconds(time), seconds(end), robot);
         });
     };
     for (const TrafficTable& flow : out.traffic) {
-        if (flow.start) look(*flow.start, flow.from_where, "start", flow.from);
+        if (flow.start) look(*flow.start, flow.start_where, "start", flow.from);
     }
     for (const RobotTable& robot : out.robots) {
         for (const Duration t : robot.off) look(t, robot.off_where, "off", robot.name);
@@ -164,12 +167,11 @@ void note_unicasts(Scenario& out) {
     };
     for (const TrafficTable& traffic : out.traffic) {
         if (!traffic.to || !is_for_protocol(out, traffic)) continue;
-        const bool is_of_file =  // a traffic file, whose flows cannot have the key
-            traffic.to_where.line > 0 && traffic.to_where.source != out.file;
         note(traffic.to_where, *traffic.to,
-             is_of_file ? "; write [routing] protocol = \"aodv\" to find routes"
-                        : "; write hops = 1 to confirm this, or [routing] protocol = \"aodv\" to "
-                          "find routes");
+             traffic.is_of_file
+                 ? "; write [routing] protocol = \"aodv\" to find routes"
+                 : "; write hops = 1 to confirm this, or [routing] protocol = \"aodv\" to "
+                   "find routes");
     }
     for (const RobotTable& robot : out.robots) {
         for (const ReactionTable& reaction : robot.reactions) {

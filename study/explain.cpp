@@ -39,7 +39,9 @@ std::string replay_command(const Store& store, const std::string& replay,
     const Value* radio = point.settings.find("radio");
     const std::string name = radio ? plain_text(*radio) : "";
     const bool is_with = name.find('=') != name.npos && name != store.property("first");
-    return replay + (is_with ? " --with " + shell_word(name) : " --verify");
+    if (is_with) return replay + " --with " + shell_word(name);
+    const bool has_options = replay.find(" --") != replay.npos;  // they do not go with --verify
+    return has_options ? replay : replay + " --verify";
 }
 
 }  // namespace

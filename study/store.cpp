@@ -2,6 +2,7 @@
 #include "study/store.hpp"
 
 #include "files/input_file.hpp"
+#include "files/kept_inputs.hpp"
 #include "scenario/document/json.hpp"
 #include "sim/error.hpp"
 #include "study/only_reading.hpp"
@@ -174,6 +175,7 @@ Store Store::open(const std::string& path) {
         throw InputError({path}, "there is no such store; rovernet sweep FILE writes a store");
     }
     need_file(path);
+    note_input(path);
     return told(path, [&] {
         return Store(path, std::make_unique<Database>(StoreConnection::to_read(path)));
     });

@@ -191,9 +191,17 @@ bool routes_unicasts(Study& study, std::size_t point) {
 
 /// Whether the scenario has unicasts, or else broadcasts, that a protocol may forward.
 bool has_messages(const Scenario& scenario, bool unicasts) {
-    return std::ranges::any_of(scenario.traffic, [&](const TrafficTable& t) {
-        return t.to.has_value() == unicasts && !t.hops && !t.saturate;
-    });
+    const auto is_one = [&](const TrafficTable& t) {
+        const bool is_late = t.start && *t.start > scenario.scenario.duration;
+        return t.to.has_value() == unicasts && !t.hops && !t.saturate && !is_late;
+    };
+    const auto sends_one = [&](const ReactionTable& r) {
+        return r.send && r.to.has_value() == unicasts;
+    };
+    return std::ranges::any_of(scenario.traffic, is_one) ||
+           std::ranges::any_of(scenario.robots, [&](const RobotTable& robot) {
+               return std::ranges::any_of(robot.reactions, sends_one);
+           });
 }
 
 /// Text on protocols that send messages of the scenario over one hop only; empty: there are none.

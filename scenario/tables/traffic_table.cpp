@@ -11,6 +11,7 @@ namespace {
 
 void read_start(const Value* start, TrafficTable& traffic, TableReader& table) {
     traffic.start = Duration{0};
+    if (start) traffic.start_where = start->where;
     if (start && start->string() && *start->string() == TrafficTable::at_arrival) {
         traffic.start.reset();
     } else {

@@ -65,8 +65,11 @@ struct TrafficTable {
     /// End of the flow [ns], and largest number of messages; none: no limit.
     std::optional<Duration> stop;
     std::optional<int> count;
-    /// File positions of the keys `from`, `to`, `hops` and `payload`, for errors and notices.
-    Location from_where = {}, to_where = {}, hops_where = {}, payload_where = {};
+    /// File positions of the keys `from`, `to`, `hops`, `start` and `payload`, for errors and
+    /// notices.
+    Location from_where = {}, to_where = {}, hops_where = {}, start_where = {}, payload_where = {};
+    /// True if the flow is of a traffic file, where it can have no key `hops`.
+    bool is_of_file = false;
 
     /// Word for the key `start`: the first message is sent when the robot arrives.
     static constexpr std::string_view at_arrival = "arrival";

@@ -96,19 +96,18 @@ void add_bitmap_names(const WorldEntity& entity, std::vector<std::string>& names
     for (const WorldEntity& child : entity.children) add_bitmap_names(child, names);
 }
 
-/// @throws InputError for a replacement OLD=NEW whose OLD is no bitmap of the world
-void check_replaced(const WorldFile& world, const WorldOptions& options) {
+/// Notices about replacements OLD=NEW whose OLD is no bitmap of the world.
+void note_unused(const WorldFile& world, const WorldOptions& options,
+                 std::vector<std::string>& notices) {
     if (options.bitmaps.empty()) return;
     std::vector<std::string> names;
     add_bitmap_names(world.root, names);
     for (const auto& [old_name, new_name] : options.bitmaps) {
         if (std::ranges::find(names, old_name) != names.end()) continue;
         const std::string near = did_you_mean(old_name, names);
-        throw InputError(
-            {world.path},
-            fmt::format("bitmap {}={}: the world names no bitmap \"{}\"; expected {}{}{}", old_name,
-                        new_name, old_name, names.empty() ? "no replacement" : "one of its bitmaps",
-                        near.empty() ? "" : "; ", near));
+        notices.push_back(fmt::format(
+            "{}: the world names no bitmap \"{}\", so the replacement {}={} has no effect{}{}",
+            world.path, old_name, old_name, new_name, near.empty() ? "" : "; ", near));
     }
 }
 
@@ -330,8 +329,9 @@ void Builder::spend(double work, const Location& where) {
 }  // namespace
 
 StageWalls stage_walls(const WorldFile& world, const WorldOptions& options) {
-    check_replaced(world, options);
-    return Builder(world, options).build(world.root);
+    StageWalls walls = Builder(world, options).build(world.root);
+    note_unused(world, options, walls.notices);
+    return walls;
 }
 
 }  // namespace rovernet

@@ -76,6 +76,13 @@ TEST_CASE("output: no command replaces a file that it reads, except by the same 
     CHECK(content(map) == png_bytes({.rows = {{255}}}));
     CHECK_FALSE(std::filesystem::exists(folder.path("summary.json")));
 
+    // A link in the output folder is replaced, not the file that it leads to.
+    const std::string linked = folder.path("linked");
+    std::filesystem::create_directory(linked);
+    std::filesystem::create_symlink(scenario, linked + "/scenario.toml");
+    CHECK(command(folder, {"run", scenario, "--out", linked}).exit == 0);
+    CHECK(content(scenario) == text);
+
     // The scenario of a run's folder may be run into this folder again.
     const std::string out = folder.path("out");
     CHECK(command(folder, {"run", scenario, "--out", out}).exit == 0);

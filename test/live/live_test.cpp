@@ -199,6 +199,12 @@ TEST_CASE("live: if a program ends before its hello, the results of an earlier r
     CHECK(failed.err.find("exit 7 ended with exit code 7") != std::string::npos);
     CHECK(content(out + "/summary.json") == summary);
     CHECK_FALSE(std::filesystem::exists(out + "/inputs.jsonl"));
+
+    // Its own input also remains, in a folder without results.
+    std::filesystem::remove(out + "/summary.json");
+    const std::string scenario = out + "/scenario.toml", text = content(scenario);
+    CHECK(command(folder, {"live", scenario, "--out", out, "--controller", "exit 7"}).exit == 1);
+    CHECK(content(scenario) == text);
 }
 
 TEST_CASE(

@@ -163,7 +163,7 @@ TEST_CASE(
         CHECK(all_notices(broadcast + "hops = 1\n" + chosen).empty());
         // No notice about forwarding: no message is sent.
         CHECK(all_notices(broadcast + "start = \"1 h\"\n" + chosen)
-                  .starts_with("s.toml:8:8: start: 3600 s is after the end of the run"));
+                  .starts_with("s.toml:10:9: start: 3600 s is after the end of the run"));
         CHECK(has(all_notices("on_time = { time = \"1 s\", send = \"x\" }\n" + chosen),
                   "s.toml:7:11: send: the routing protocol does not forward broadcasts, so "
                   "broadcasts of \"B\" go over one hop only"));

@@ -74,7 +74,7 @@ TEST_CASE("unlikely input: a time after the end of the run gives a notice") {
     const std::string run = "[scenario]\nduration = \"30 s\"\n" + robot_a;
     const std::string flow = "[[traffic]]\nfrom = \"A\"\npayload = \"x\"\nstart = ";
     check_notice(run + flow + "\"100 s\"\n",
-                 {"s.toml:7:8: start: 100 s is after the end of the run (30 s)", "robot \"A\""});
+                 {"s.toml:9:9: start: 100 s is after the end of the run (30 s)", "robot \"A\""});
     CHECK(notices_of(run + flow + "\"30 s\"\n").empty());
     check_notice(run + "off = [\"1 s\", \"31 s\"]\non = [\"2 s\"]\n", {"s.toml:6:7: off: 31 s is"});
     check_notice(run + "off = [\"1 s\"]\non = [\"40 s\"]\n", {"s.toml:7:6: on: 40 s is"});

@@ -323,6 +323,8 @@ TEST_CASE("replay: a trace whose Stage world has other walls since then is refus
         CHECK(ended.err.find("w.world have changed since this run was recorded") !=
               std::string::npos);
     }
+    folder.write("w.world", robots);  // all walls are gone
+    CHECK(command(folder, commands[0]).exit == 3);
     // What needs neither levels nor walls is still there.
     CHECK(command(folder, {"trace", "follow", trace, "--message", "0"}).exit == 0);
 

@@ -372,7 +372,13 @@ TEST_CASE("stage world: --set and varied values may choose the world") {
     folder.write("b.world", "position ( name \"b\" wifi ( ) )\nposition ( name \"c\" )\n");
     const std::string path = folder.write("s.toml", "[scene]\nworld = \"a.world\"\n");
     CHECK(load_scenario(path, {}).robots.at(0).name == "a");
-    CHECK(load_scenario(path, {.set = {"scene.world=b.world"}}).robots.at(0).name == "b");
+    for (const std::string set :
+         {"scene.world=b.world", "\"scene\".world=b.world", "scene={ world = \"b.world\" }"}) {
+        CAPTURE(set);
+        const Scenario b = load_scenario(path, {.set = {set}});
+        REQUIRE(b.robots.size() == 2);
+        CHECK(b.robots[0].name == "b");
+    }
 
     // Options about robots hold for the robots of the chosen world.
     const ScenarioFile file(path, {.set = {"robot.0.radius=0.3"}});
@@ -543,7 +549,7 @@ TEST_CASE("stage world: values of a wrong type are refused, with line and column
     CHECK(mistake(robot_with + "ip 5 ) )") ==
           "1:58: ip: found a number; expected a text in quotes; write ip \"...\"");
     CHECK(mistake(robot_with + "power \"30\" ) )") ==
-          "1:58: power: found a text; expected one number; write power 1");
+          "1:58: power: found a text; expected one number; write power 30");
     CHECK(
         mistake(robot_with + "power [30] ) )").starts_with("1:58: power: found a list; expected"));
     CHECK(mistake("position ( name 5 wifi ( ) )").starts_with("1:12: name: found a number"));
