@@ -197,7 +197,7 @@ Scenario ReplayedScenario::with(const std::vector<std::string>& set) const {
     try {
         Scenario scenario = load_scenario(file_, {.set = set});
         const bool changes_scene = std::ranges::any_of(
-            set, [](const std::string& option) { return option.starts_with("scene."); });
+            set, [](const std::string& option) { return first_key(option) == "scene"; });
         if (!changes_scene) check_walls(scenario);
         return scenario;
     } catch (const InputError& error) {

@@ -20,6 +20,7 @@
 #include "traces/topology.hpp"
 
 #include <algorithm>
+#include <sstream>
 
 namespace rovernet {
 namespace {
@@ -91,11 +92,21 @@ void ScenarioRun::observe(Observed observed) {
 
 ScenarioRun::~ScenarioRun() = default;
 
+/// Checks before the run that its results would not replace the scenario that was read.
+void ScenarioRun::check_scenario_stays(const std::string& folder) const {
+    const std::string path = folder + "/scenario.toml";
+    if (!is_kept_input(path)) return;
+    std::istringstream document(to_toml(document_in(folder, scenario_)));
+    if (!replaces_input(path, document)) return;
+    throw RunError(path +
+                   ": this file is an input of the command, and the results would replace it; "
+                   "expected a different folder for the results (--out)");
+}
+
 void ScenarioRun::write_to(const std::string& folder) {
     result_.folder = folder;
     make_folder(folder);
-    if (const std::string document = folder + "/scenario.toml"; is_kept_input(document))
-        check_output(document, to_toml(document_in(folder, scenario_)));
+    check_scenario_stays(folder);
     traces_ = trace_files(scenario_, folder);
     for (const TraceFile& trace : traces_) session_->network().add_sink(trace.sink);
     if (!traces_.empty()) result_.trace = traces_.front().path;

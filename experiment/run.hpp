@@ -128,6 +128,7 @@ class ScenarioRun {
 
   private:
     void observe(Observed observed);
+    void check_scenario_stays(const std::string& folder) const;
     void write_results();
 
     const Scenario& scenario_;

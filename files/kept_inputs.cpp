@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "files/kept_inputs.hpp"
 
-#include "sim/error.hpp"
-
 #include <algorithm>
 #include <atomic>
 #include <fstream>
@@ -41,14 +39,11 @@ bool is_kept_input(const std::string& path) {
     return kept.contains({status.st_dev, status.st_ino});
 }
 
-void check_output(const std::string& path, std::string_view contents) {
-    if (!is_kept_input(path)) return;
-    std::ifstream file(path, std::ios::binary);
+bool replaces_input(const std::string& path, std::istream& contents) {
+    if (!is_kept_input(path)) return false;
+    std::ifstream input(path, std::ios::binary);
     using Bytes = std::istreambuf_iterator<char>;
-    if (std::equal(contents.begin(), contents.end(), Bytes(file), Bytes())) return;
-    throw RunError(path +
-                   ": this file is an input of the command, and the results would replace it; "
-                   "expected a different folder for the results (--out)");
+    return !std::equal(Bytes(contents), Bytes(), Bytes(input), Bytes());
 }
 
 }  // namespace rovernet

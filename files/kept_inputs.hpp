@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <iosfwd>
 #include <string>
-#include <string_view>
 
 // Input files of a command, which no output of the command replaces.
 
@@ -19,8 +19,8 @@ void note_input(const std::string& path);
 /// Whether the path is a noted file, also by another name; false for a symbolic link.
 bool is_kept_input(const std::string& path);
 
-/// Checks before a long run that one of its results may be written: that it does not replace a
-/// noted file by different contents. @throws RunError
-void check_output(const std::string& path, std::string_view contents);
+/// Whether an output with these contents, written to the path, would replace a noted file by
+/// different contents.
+bool replaces_input(const std::string& path, std::istream& contents);
 
 }  // namespace rovernet

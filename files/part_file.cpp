@@ -14,7 +14,6 @@
 #include <fcntl.h>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -38,13 +37,6 @@ int create_locked(const std::string& part) {
         if (flock(file, mine) != 0 || fstat(file, &status) != 0 || status.st_nlink > 0) return file;
         ::close(file);
     }
-}
-
-/// Whether two files have the same contents.
-bool are_equal(const std::string& one, const std::string& other) {
-    std::ifstream a(one, std::ios::binary), b(other, std::ios::binary);
-    using Bytes = std::istreambuf_iterator<char>;
-    return std::equal(Bytes(a), Bytes(), Bytes(b), Bytes());
 }
 
 }  // namespace
@@ -116,7 +108,8 @@ void PartFile::close() {
 
 void PartFile::give_name() {
     close();
-    if (is_kept_input(path_) && !are_equal(part_, path_))
+    std::ifstream contents(part_, std::ios::binary);
+    if (replaces_input(path_, contents))
         fail("this file is an input of the command; expected a different file to write");
     if (std::rename(part_.c_str(), path_.c_str()) != 0) fail(std::strerror(errno));
     part_.clear();

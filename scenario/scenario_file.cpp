@@ -228,8 +228,7 @@ ScenarioFile::ScenarioFile(Value document, const std::string& path, const Scenar
     const fs::path folder = fs::path(path).parent_path();
     // Options about the scene decide which world is read. The others may name its robots.
     std::erase_if(options_.set, [&](const std::string& option) {
-        std::string_view key = std::string_view(option).substr(0, find_equals(option));
-        if (take_key(key) != "scene") return false;
+        if (first_key(option) != "scene") return false;
         set_option(without_world_, option, "--set " + option);
         return true;
     });

@@ -16,6 +16,12 @@
 #include <utility>
 
 namespace rovernet {
+
+bool is_for_protocol(const Scenario& scenario, const TrafficTable& flow) {
+    const bool is_late = flow.start && *flow.start > scenario.scenario.duration;
+    return !flow.hops && !flow.saturate && !is_late;
+}
+
 namespace {
 
 std::string shown(Hertz f) { return quantity_text(f.value, Dimension::frequency); }
@@ -143,13 +149,6 @@ void note_late(Scenario& out) {
         }
     }
     late.note(out.notices);
-}
-
-/// Whether the routing protocol gets messages of a flow: the flow starts during the run, and its
-/// messages are not bound to one hop.
-bool is_for_protocol(const Scenario& scenario, const TrafficTable& flow) {
-    const bool is_late = flow.start && *flow.start > scenario.scenario.duration;
-    return !flow.hops && !flow.saturate && !is_late;
 }
 
 /// Notices unicasts that go over one hop because the routing protocol does not route them, and that

@@ -21,6 +21,10 @@ namespace rovernet {
 /// nothing
 void note_unlikely(Scenario& scenario);
 
+/// Whether the routing protocol gets messages of a flow: the flow starts during the run, and its
+/// messages are not bound to one hop.
+bool is_for_protocol(const Scenario& scenario, const TrafficTable& flow);
+
 /// Sentence about a frequency that robots' radios do not use, with a suggestion; empty for any
 /// other frequency.
 std::string unlikely_frequency(Hertz frequency);

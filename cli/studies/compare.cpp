@@ -10,6 +10,7 @@
 #include "files/temporary_directory.hpp"
 #include "scenario/document/toml.hpp"
 #include "scenario/scenario_file.hpp"
+#include "scenario/unlikely.hpp"
 #include "study/advise/compare_cost.hpp"
 #include "study/explain.hpp"
 #include "study/inventory.hpp"
@@ -192,8 +193,7 @@ bool routes_unicasts(Study& study, std::size_t point) {
 /// Whether the scenario has unicasts, or else broadcasts, that a protocol may forward.
 bool has_messages(const Scenario& scenario, bool unicasts) {
     const auto is_one = [&](const TrafficTable& t) {
-        const bool is_late = t.start && *t.start > scenario.scenario.duration;
-        return t.to.has_value() == unicasts && !t.hops && !t.saturate && !is_late;
+        return t.to.has_value() == unicasts && is_for_protocol(scenario, t);
     };
     const auto sends_one = [&](const ReactionTable& r) {
         return r.send && r.to.has_value() == unicasts;

@@ -327,6 +327,11 @@ void set_value(Value& document, const std::string& path, Value value, const Loca
     *at = std::move(value);
 }
 
+std::string_view first_key(std::string_view assignment) {
+    std::string_view path = assignment.substr(0, find_equals(assignment));
+    return take_key(path);
+}
+
 void set_option(Value& document, const std::string& assignment, const std::string& typed) {
     const Location option{typed, 0, 0, true};
     const auto equals = find_equals(assignment);

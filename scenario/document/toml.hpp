@@ -52,6 +52,9 @@ std::size_t find_equals(std::string_view assignment);
 /// @throws InputError at `where` if the path does not exist and cannot be created
 void set_value(Value& document, const std::string& path, Value value, const Location& where);
 
+/// First key of an assignment "path=value" of the option --set: "scene" for "scene.map=m.png".
+std::string_view first_key(std::string_view assignment);
+
 /// Applies an assignment "path=value" of the command line's option --set to a scenario's document.
 /// The value is TOML, or a string without quotes. Numbers without a unit are in SI units.
 /// @param typed  option as the user typed it, for error messages
